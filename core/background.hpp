@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Stage 1, element bgremove: which pixels are foreground (paper, section 2.2.1).
+//
+// Determinism: integers only; every pixel's model is its own, sums over the frame commute. The same
+// bits for any number of threads. Areas are sorted by their first pixel in raster order.
+#pragma once
+
+#include "core/geometry.hpp"
+#include "core/image.hpp"
+#include "core/picture.hpp"
+#include "core/result.hpp"
+#include "core/stage.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace rg {
+
+/// Values of a foreground mask.
+inline constexpr uint8_t kBackgroundPixel = 0;
+inline constexpr uint8_t kShadowPixel = 128;
+inline constexpr uint8_t kForegroundPixel = 255;
+
+enum class SceneEvent : uint8_t {
+  None,
+  LightSwitched,  ///< Most of the picture changed its brightness at once.
+  Changed,        ///< Most of the picture changed otherwise: the camera moved or was covered.
+};
+
+struct Scene {
+  SceneEvent event = SceneEvent::None;  ///< What happened in this very frame.
+  uint32_t foregroundPx = 0;
+};
+
+/// What bgremove says of one frame. Immutable once published.
+struct Foreground {
+  Size size;
+  Status status = Status::Skipped;
+  std::shared_ptr<const Picture> picture;  ///< What was looked at; later stages look at it too.
+  Image<uint8_t> mask;                     ///< kBackgroundPixel, kShadowPixel, kForegroundPixel.
+  std::vector<Box> areas;  ///< Bounding boxes of the foreground's 8-connected parts.
+  Scene scene;
+
+  void dropSources() { picture.reset(); }
+};
+
+enum class BackgroundMethod : uint8_t {
+  Hybrid,  ///< Multi-modal model, hysteresis, shadow and ghost removal.
+  Paper,   ///< Section 2.2.1 to the letter.
+};
+
+struct BackgroundParams {
+  BackgroundMethod method = BackgroundMethod::Hybrid;
+  int trainingFrames = 50;      ///< Frames from which the first model is learnt. 1 … 65535.
+  double learningTimeS = 10.0;  ///< Time constant of the running update, in seconds.
+  int threshold = 0;  ///< Least difference of a channel, in grey levels; 0 = found by the method.
+  bool findsShadows = true;   ///< Mark cast shadows instead of counting them as foreground.
+  double absorbTimeS = 60.0;  ///< After so many seconds a thing that stopped becomes background.
+};
+
+class BackgroundStage {
+ public:
+  virtual ~BackgroundStage() = default;
+  /// Transactional: on an error the model is as it was. The picture's size may change only after
+  /// reset(Reset::Stream).
+  [[nodiscard]] virtual Result<std::shared_ptr<const Foreground>> process(
+      std::shared_ptr<const Picture> picture, const BackgroundParams& params, FrameTime time) = 0;
+  virtual void reset(Reset what) = 0;
+};
+
+[[nodiscard]] std::unique_ptr<BackgroundStage> makeBackgroundStage(Context context);
+
+}  // namespace rg

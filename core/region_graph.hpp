@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Stage 3, element srg: the spatial region graph (paper, section 2.3 phase 1.2).
+//
+// Determinism: integer sums over pixels. Regions sorted by label, arcs by (a, b) with a < b.
+#pragma once
+
+#include "core/geometry.hpp"
+#include "core/result.hpp"
+#include "core/segmentation.hpp"
+#include "core/stage.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace rg {
+
+/// Mean colour, full-range R'G'B'.
+struct Colour {
+  uint8_t red = 0;
+  uint8_t green = 0;
+  uint8_t blue = 0;
+  friend constexpr bool operator==(const Colour&, const Colour&) = default;
+};
+
+/// A node: regions[i] describes label i + 1.
+struct Region {
+  uint32_t areaPx = 0;
+  Box box;
+  int32_t centroidX = 0;  ///< Mean of the pixels' columns, in 1/256 px, rounded to the nearest.
+  int32_t centroidY = 0;
+  Colour colour;
+};
+
+/// Two regions that touch; a < b are labels.
+struct Arc {
+  uint16_t a = 0;
+  uint16_t b = 0;
+  uint32_t borderPx = 0;  ///< Pairs of 4-neighbours across the border; with 8-connectivity also
+                          ///< diagonal pairs.
+  uint32_t contrast = 0;  ///< Sum over those pairs of the largest channel difference, grey levels.
+};
+
+enum class Connectivity : uint8_t { Four = 4, Eight = 8 };
+
+/// What srg says of one frame. Immutable once published.
+struct Graph {
+  Size size;
+  Status status = Status::Skipped;
+  std::shared_ptr<const Labels> labels;
+  std::vector<Region> regions;
+  std::vector<Arc> arcs;
+
+  void dropSources() { labels.reset(); }
+};
+
+struct GraphParams {
+  Connectivity connectivity = Connectivity::Four;
+};
+
+class GraphStage {
+ public:
+  virtual ~GraphStage() = default;
+  [[nodiscard]] virtual Result<std::shared_ptr<const Graph>> process(
+      std::shared_ptr<const Labels> labels, const GraphParams& params) = 0;
+  virtual void reset(Reset what) = 0;
+};
+
+[[nodiscard]] std::unique_ptr<GraphStage> makeGraphStage(Context context);
+
+}  // namespace rg

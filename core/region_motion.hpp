@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Stage 4, element prmmotion: partitioned region matching (paper, section 2.3 phase 2.1).
+//
+// A region's vector is the shift d = (dx, dy) that makes SAD(d) = sum over its pixels x of
+// |I_t(x) − I_t−1(x − d)| smallest: by how much it moved since the previous frame. Pixels outside
+// the previous frame repeat its border.
+// Determinism: integer sums. Tie-break: smallest (SAD, |d|², dy, dx).
+#pragma once
+
+#include "core/region_graph.hpp"
+#include "core/result.hpp"
+#include "core/stage.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace rg {
+
+inline constexpr int kMotionFractionBits = 4;  ///< Vectors are in 1/16 px.
+inline constexpr int kMotionUnit = 1 << kMotionFractionBits;
+inline constexpr int kFullReliability = 256;
+
+struct RegionMotion {
+  int32_t dx = 0;  ///< In 1/16 px, from the previous frame to this one.
+  int32_t dy = 0;
+  uint64_t sad = 0;          ///< At the best whole-pixel shift.
+  uint16_t reliability = 0;  ///< 0 (says nothing) … kFullReliability.
+};
+
+/// What prmmotion says of one frame; regions[i] belongs to label i + 1. Immutable once published.
+struct Motion {
+  Size size;
+  Status status = Status::Skipped;  ///< Skipped where there is no previous frame: all vectors are 0
+                                    ///< with reliability 0.
+  std::shared_ptr<const Graph> graph;
+  std::vector<RegionMotion> regions;
+
+  void dropSources() { graph.reset(); }
+};
+
+struct MotionParams {
+  int maxShiftPx = 20;  ///< Searched in both directions of both axes. 1 … 64.
+  bool isSubpixel = true;
+};
+
+class MotionStage {
+ public:
+  virtual ~MotionStage() = default;
+  [[nodiscard]] virtual Result<std::shared_ptr<const Motion>> process(
+      std::shared_ptr<const Graph> graph, const MotionParams& params) = 0;
+  virtual void reset(Reset what) = 0;
+};
+
+[[nodiscard]] std::unique_ptr<MotionStage> makeMotionStage(Context context);
+
+}  // namespace rg

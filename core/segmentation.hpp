@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Stage 2, element hsvsegment: regions of one colour (paper, section 2.2.2 and 2.3 phase 1.1).
+//
+// Determinism: regions are the components of a predicate on neighbouring pixels, absorption runs in
+// synchronous rounds; the result does not depend on any order. Regions count from 1 in the raster
+// order of their first pixels.
+#pragma once
+
+#include "core/background.hpp"
+#include "core/image.hpp"
+#include "core/picture.hpp"
+#include "core/result.hpp"
+#include "core/stage.hpp"
+
+#include <cstdint>
+#include <memory>
+
+namespace rg {
+
+/// Which pixels get a region.
+enum class Scope : uint8_t {
+  Frame,       ///< All: the camera may move, the largest merged group is the background.
+  Foreground,  ///< Those that bgremove marked; the rest has label 0.
+};
+
+inline constexpr uint16_t kNoRegion = 0;
+
+/// What hsvsegment says of one frame. Immutable once published.
+struct Labels {
+  Size size;
+  Status status = Status::Skipped;
+  Scope scope = Scope::Frame;
+  std::shared_ptr<const Picture> picture;
+  std::shared_ptr<const Foreground> foreground;  ///< None under Scope::Frame without bgremove.
+  Image<uint16_t> ids;                           ///< kNoRegion or 1 … count.
+  uint32_t count = 0;
+
+  void dropSources() {
+    picture.reset();
+    foreground.reset();
+  }
+};
+
+struct SegmentationParams {
+  Scope scope = Scope::Frame;
+  int similarity = 0;     ///< Largest step between neighbours in one region; see the element.
+  int minAreaPx = 0;      ///< Smaller regions are absorbed by the neighbour most like them.
+  int maxRegions = 1024;  ///< 1 … 65535, never exceeded.
+};
+
+class SegmentationStage {
+ public:
+  virtual ~SegmentationStage() = default;
+  /// `foreground` may be null under Scope::Frame.
+  [[nodiscard]] virtual Result<std::shared_ptr<const Labels>> process(
+      std::shared_ptr<const Picture> picture, std::shared_ptr<const Foreground> foreground,
+      const SegmentationParams& params) = 0;
+  virtual void reset(Reset what) = 0;
+};
+
+[[nodiscard]] std::unique_ptr<SegmentationStage> makeSegmentationStage(Context context);
+
+}  // namespace rg
