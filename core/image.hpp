@@ -39,7 +39,8 @@ struct ImageView {
     assert(intersect(box, boundsOf(size)) == box || box.isEmpty());
     return {box.isEmpty() ? data : row(box.y) + box.x, {box.width, box.height}, strideBytes};
   }
-  operator ImageView<const T>() const requires(!std::is_const_v<T>) {
+  operator ImageView<const T>() const  // NOLINT(google-explicit-constructor)
+      requires(!std::is_const_v<T>) {
     return {data, size, strideBytes};
   }
 };

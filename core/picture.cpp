@@ -94,17 +94,20 @@ uint8_t fromQ14(int value) {
   return static_cast<uint8_t>(std::clamp(roundShift(value, 14), 0, 255));
 }
 
-/// `chromaStep` is 1 for planes of their own, 2 where Cb and Cr take turns.
-void loadYuvRow(const uint8_t* luma, const uint8_t* cb, const uint8_t* cr, int chromaStep,
-                int width, const YuvToRgb& k, const ColourRows& to) {
+struct YuvRows {
+  const uint8_t *luma, *cb, *cr;
+  int chromaStep;  ///< 1 for planes of their own, 2 where Cb and Cr take turns.
+};
+
+void loadYuvRow(const YuvRows& from, int width, const YuvToRgb& k, const ColourRows& to) {
   for (int x = 0; x < width; ++x) {
-    const int y = (luma[x] - k.offset) * k.luma;
-    const int u = cb[(x >> 1) * chromaStep] - 128;
-    const int v = cr[(x >> 1) * chromaStep] - 128;
+    const int y = (from.luma[x] - k.offset) * k.luma;
+    const int u = from.cb[(x >> 1) * from.chromaStep] - 128;
+    const int v = from.cr[(x >> 1) * from.chromaStep] - 128;
     to.red[x] = fromQ14(y + v * k.redByCr);
     to.green[x] = fromQ14(y - u * k.greenByCb - v * k.greenByCr);
     to.blue[x] = fromQ14(y + u * k.blueByCb);
-    to.luma[x] = luma[x];
+    to.luma[x] = from.luma[x];
   }
 }
 
@@ -129,9 +132,9 @@ void Picture::load(const Frame& frame, const Executor& executor) {
       const ColourRows to{red_.row(y), green_.row(y), blue_.row(y), luma_.row(y)};
       if (layout.format == PixelFormat::Nv12) {
         const uint8_t* chroma = frame.plane(1).row(y / 2);
-        loadYuvRow(from, chroma, chroma + 1, 2, size.width, k, to);
+        loadYuvRow({from, chroma, chroma + 1, 2}, size.width, k, to);
       } else if (layout.format == PixelFormat::I420) {
-        loadYuvRow(from, frame.plane(1).row(y / 2), frame.plane(2).row(y / 2), 1, size.width, k,
+        loadYuvRow({from, frame.plane(1).row(y / 2), frame.plane(2).row(y / 2), 1}, size.width, k,
                    to);
       } else {
         loadPackedRow(layout.format, from, size.width, to);
