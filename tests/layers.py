@@ -1,0 +1,170 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Checks what the compiler does not: include arrows, sizes, licence lines, white space, commits.
+
+usage: layers.py [ROOT]      (default: the repository that this file is in)
+
+Arrows only point left: core <- kernels <- gst <- examples; tests may see all. No element includes
+another one, except regiontrack, which is made of them, and plugin, which registers them.
+Prints one line per finding and exits 1 when there is any.
+"""
+import pathlib
+import re
+import subprocess
+import sys
+
+LAYERS = ('core', 'kernels', 'gst', 'examples')
+FOREIGN = {  # Outside libraries that a layer must not include.
+    'core': r'(glib|gio|gst|gobject|opencv|cuda|cub|thrust)',
+    'kernels': r'(glib|gio|gst|gobject|opencv)',
+}
+ELEMENTS = ('bgremove', 'hsvsegment', 'srg', 'prmmotion', 'mrfmerge', 'regionoverlay', 'regionmask',
+            'regionwrite', 'regiontrack')
+SEES_ELEMENTS = ('regiontrack', 'plugin')
+MAX_FILE_LINES, MAX_FUNCTION_LINES, MAX_COLUMNS = 400, 50, 100
+CODE = ('.cpp', '.hpp', '.h', '.cu', '.cuh')
+SCRIPTS = ('.py', '.sh', '.map', '.supp')
+SPDX = 'SPDX-License-Identifier: LGPL-2.1-or-later'
+UNFINISHED = re.compile(r'\b(TO' r'DO|FIX' r'ME|XX' r'X)\b')  # Split so that this line is none.
+INVISIBLE = re.compile('[\u200b-\u200f\u2028-\u202f\u2060-\u2064\ufeff]')
+INCLUDE = re.compile(r'^\s*#\s*include\s*(["<])([^">]+)[">]')
+SUBJECT = re.compile(r'^([a-z][a-z0-9.-]*: \S.*[^.\s]|Revert ".*")$')
+MAX_SUBJECT = 72
+CHECKED_COMMITS = 10
+
+
+def git(root, *arguments):
+    """The lines that git prints; none where there is no git or no repository."""
+    try:
+        done = subprocess.run(['git', '-C', root, *arguments], capture_output=True, text=True)
+    except FileNotFoundError:
+        return []
+    return done.stdout.splitlines() if done.returncode == 0 else []
+
+
+def tracked(root):
+    names = git(root, 'ls-files')
+    if names:
+        return [root / name for name in sorted(set(names)) if (root / name).is_file()]
+    skipped = re.compile(r'^(\.git|build.*|demo-output|scratch)(/|$)')
+    return sorted(p for p in root.rglob('*')
+                  if p.is_file() and not skipped.match(p.relative_to(root).as_posix()))
+
+
+def is_ours(path):
+    return (path.suffix in CODE + SCRIPTS
+            or path.name in ('meson.build', 'meson_options.txt', '.clang-tidy')
+            or path.parts[-2:] == ('.ci', 'run'))
+
+
+def arrow_findings(relative, lines):
+    layer = relative.parts[0]
+    if layer not in LAYERS:
+        return
+    allowed = LAYERS[:LAYERS.index(layer) + 1]
+    in_public_header = relative.parts[:2] == ('gst', 'meta') and relative.suffix == '.h'
+    for number, line in enumerate(lines, 1):
+        found = INCLUDE.match(line)
+        if not found:
+            continue
+        quote, target = found.groups()
+        top = target.split('/')[0]
+        if quote == '"' and top in LAYERS + ('tests',) and top not in allowed:
+            yield number, f'{layer} must not include {target}'
+        if quote == '"' and in_public_header and not target.endswith('.h'):
+            yield number, f'a public header must not include {target}'
+        if quote == '<' and layer in FOREIGN and re.match(FOREIGN[layer], target):
+            yield number, f'{layer} must not include <{target}>'
+        if layer == 'gst' and quote == '"':
+            yield from element_findings(relative, number, target)
+
+
+def element_findings(relative, number, target):
+    own = re.split(r'[_.]', relative.name)[0]
+    other = re.split(r'[_.]', target.split('/')[-1])[0]
+    if (target.startswith('gst/') and other in ELEMENTS and other != own
+            and own not in SEES_ELEMENTS):
+        yield number, f'{own} must not include another element ({target})'
+
+
+def function_findings(lines):
+    """clang-format puts a body's last brace under its first line: enough to measure functions."""
+    for indent in ('', '  '):
+        start = None
+        for number, line in enumerate(lines, 1):
+            if not line.startswith(indent) or line[len(indent):len(indent) + 1] in ('', ' '):
+                continue
+            if re.match(r'\}[;,)]*( *//.*)?$', line[len(indent):]):
+                if start and number - start + 1 > MAX_FUNCTION_LINES:
+                    yield start, f'function of {number - start + 1} lines (at most 50)'
+                start = None
+            elif '(' in line and not re.match(r'\s*(namespace|#|//)', line):
+                start = number
+            elif line.rstrip().endswith('{') and '(' not in line:
+                start = None
+
+
+def text_findings(relative, text):
+    lines = text.split('\n')
+    for number, line in enumerate(lines, 1):
+        if line.rstrip(' \t\r') != line:
+            yield number, 'trailing blank or carriage return'
+        if '\t' in line:
+            yield number, 'tab'
+        if INVISIBLE.search(line):
+            yield number, 'invisible character'
+        if UNFINISHED.search(line):
+            yield number, 'unfinished work'
+        if len(line) > MAX_COLUMNS and relative.suffix not in ('.md', '.json'):
+            yield number, f'{len(line)} columns (at most {MAX_COLUMNS})'
+    if text and not text.endswith('\n'):
+        yield len(lines), 'no newline at the end'
+
+
+def file_findings(root, path):
+    relative = path.relative_to(root)
+    if relative.name == 'LICENSE':
+        return
+    try:
+        text = path.read_text(encoding='utf-8')
+    except UnicodeDecodeError:  # A picture.
+        return
+    lines = text.splitlines()
+    yield from text_findings(relative, text)
+    if is_ours(path) and not any(SPDX in line for line in lines[:3]):
+        yield 1, 'no SPDX line'
+    if path.suffix in CODE:
+        yield from arrow_findings(relative, lines)
+    if path.suffix in CODE and relative.parts[0] != 'tests':
+        yield from function_findings(lines)
+        if len(lines) > MAX_FILE_LINES:
+            yield 1, f'{len(lines)} lines (at most {MAX_FILE_LINES})'
+
+
+def commit_findings(root):
+    log = git(root, 'log', '--no-merges', f'-{CHECKED_COMMITS}', '--format=%h%x1f%s%x1f%B%x1e')
+    for entry in '\n'.join(log).split('\x1e'):
+        if entry.count('\x1f') != 2:
+            continue
+        commit, subject, message = (part.strip('\n') for part in entry.split('\x1f'))
+        if not SUBJECT.match(subject):
+            yield commit, f'subject is not "area: sentence" without full stop: {subject}'
+        if len(subject) > MAX_SUBJECT:
+            yield commit, f'subject of {len(subject)} characters (at most {MAX_SUBJECT})'
+        rest = message.split('\n')[1:]
+        if rest and rest[0]:
+            yield commit, 'no empty line after the subject'
+
+
+def main():
+    root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else __file__).resolve()
+    root = root if root.is_dir() else root.parent.parent
+    findings = [f'{path.relative_to(root)}:{number}: {what}'
+                for path in tracked(root) for number, what in file_findings(root, path)]
+    findings += [f'commit {commit}: {what}' for commit, what in commit_findings(root)]
+    print('\n'.join(findings + [f'layers: {len(findings)} findings']))
+    sys.exit(1 if findings else 0)
+
+
+if __name__ == '__main__':
+    main()

@@ -1,0 +1,55 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Checks what the built files export, with nm.
+
+usage: symbols.py PLUGIN LIBRARY HEADER...
+
+PLUGIN exports gst_plugin_* and nothing else. LIBRARY exports the functions that the public HEADERs
+declare, each of them named gst_*region*, and nothing else. Exits 1 when that is not so.
+"""
+import pathlib
+import re
+import subprocess
+import sys
+
+
+def exported(library):
+    """Names of all dynamic symbols that the file defines; A is a version's own name."""
+    out = subprocess.run(['nm', '-D', '--defined-only', '--without-symbol-versions', library],
+                         capture_output=True, text=True, check=True).stdout
+    rows = [line.split() for line in out.splitlines()]
+    return {row[2] for row in rows if len(row) == 3 and row[1] != 'A'}
+
+
+def declared(headers):
+    """Functions that the headers declare: a name before a parenthesis, outside of comments."""
+    names = set()
+    for header in headers:
+        text = pathlib.Path(header).read_text(encoding='utf-8')
+        text = re.sub(r'/\*.*?\*/|//[^\n]*', '', text, flags=re.DOTALL)
+        text = re.sub(r'^\s*#(?:[^\n]*\\\n)*[^\n]*', '', text, flags=re.MULTILINE)
+        names |= set(re.findall(r'\b(gst_[a-z0-9_]+)\s*\(', text))
+    return names
+
+
+def main():
+    if len(sys.argv) < 4:
+        sys.exit(__doc__)
+    plugin, library = exported(sys.argv[1]), exported(sys.argv[2])
+    public = declared(sys.argv[3:])
+    findings = [f'{sys.argv[1]}: exports {name}'
+                for name in sorted(plugin) if not name.startswith('gst_plugin_')]
+    findings += [] if plugin else [f'{sys.argv[1]}: exports nothing']
+    findings += [f'{sys.argv[2]}: exports {name}, which no public header declares'
+                 for name in sorted(library - public)]
+    findings += [f'{sys.argv[2]}: does not export {name}, which a public header declares'
+                 for name in sorted(public - library)]
+    findings += [f'{sys.argv[2]}: exports {name}, which is not named gst_*region*'
+                 for name in sorted(library) if not re.match(r'gst_.*region', name)]
+    print('\n'.join(findings + [
+        f'symbols: plugin {len(plugin)}, library {len(library)}, {len(findings)} findings']))
+    sys.exit(1 if findings else 0)
+
+
+if __name__ == '__main__':
+    main()
