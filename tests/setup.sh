@@ -1,18 +1,21 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: LGPL-2.1-or-later
-# Installs the Debian packages that the build, the tests and the demo need. Does nothing when all of them are there.
+# Installs the Debian packages that the build, the tests and the demo need. Does nothing when all of
+# them are there. Needs root or sudo only when something is missing.
 set -euo pipefail
 
 packages=(
   # build
-  g++ clang meson ninja-build pkg-config
+  g++ clang meson ninja-build pkg-config git
   libgstreamer1.0-dev libgstreamer-plugins-base1.0-dev libglib2.0-dev
   libopencv-dev libhwy-dev libtbb-dev
   # checks and tests
   clang-format clang-tidy libgtest-dev libgmock-dev binutils
-  python3 python3-numpy python3-opencv python3-scipy python3-jsonschema python3-gi gir1.2-gstreamer-1.0 gir1.2-gst-plugins-base-1.0
+  python3 python3-numpy python3-opencv python3-scipy python3-jsonschema
+  python3-gi gir1.2-gstreamer-1.0 gir1.2-gst-plugins-base-1.0
   # running pipelines
-  gstreamer1.0-tools gstreamer1.0-plugins-base gstreamer1.0-plugins-good gstreamer1.0-plugins-bad gstreamer1.0-libav
+  gstreamer1.0-tools gstreamer1.0-plugins-base gstreamer1.0-plugins-good gstreamer1.0-plugins-bad
+  gstreamer1.0-libav
 )
 
 installed() { dpkg-query -W -f '${Status}\n' "$1" 2>/dev/null | grep -q 'ok installed'; }
@@ -25,9 +28,21 @@ done
 
 as_root=()
 if ((EUID)); then
-  command -v sudo >/dev/null || { echo "setup: as root, run: apt-get install ${missing[*]}" >&2; exit 1; }
+  if ! command -v sudo >/dev/null; then
+    echo "setup: these packages are missing; as root, run: apt-get install ${missing[*]}" >&2
+    exit 1
+  fi
   as_root=(sudo)
 fi
+
 echo "setup: installing ${missing[*]}"
-"${as_root[@]}" apt-get update -qq
-"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+apt() { "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -q -y "$@" >"$log" 2>&1; }
+# A list of packages that is out of date is no reason to fail while what is needed can be had.
+apt update || echo "setup: apt-get update failed; trying with the package lists as they are" >&2
+if ! apt install --no-install-recommends "${missing[@]}"; then
+  tail -n 20 "$log" >&2
+  echo "setup: apt-get install failed: ${missing[*]}" >&2
+  exit 1
+fi
