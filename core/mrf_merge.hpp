@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Merging regions that move alike: U = U1 (motion) + U2 (geometry) + U3 (broken arcs) + prediction,
+// minimised over the arcs of the region graph (paper, section 2.3 phase 2.2).
+//
+// Up to a constant, U is minus the sum of the weights of the arcs that are kept, where an arc
+// between regions s and t with border L weighs
+//   w = border L + arc + prediction [same object predicted] − motion r min(√As, √At) excess,
+//   excess = clamp(|vs − vt|² − T², 0, T²) / T²,  r = the lesser reliability of the two.
+// Regions that show no reliable motion are thus joined by geometry alone.
+//
+// Determinism: integers; every choice has a key (weight, then a hash of the two labels, then the
+// labels), so the result depends on the graph alone. Groups count from 0 in the order of their
+// first regions.
+#pragma once
+
+#include "core/region_motion.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace rg {
+
+/// Weights in 1/256; what they weigh is in pixels.
+struct MergeWeights {
+  int32_t motion = 256;
+  int32_t border = 256;
+  int32_t arc = 256;
+  int32_t prediction = 2048;
+  int32_t motionThreshold = 2 * kMotionUnit;  ///< T, in 1/16 px per frame, at least 1.
+};
+
+/// An arc between nodes a < b that count from 0.
+struct WeightedArc {
+  uint32_t a = 0;
+  uint32_t b = 0;
+  int64_t weight = 0;
+  friend constexpr bool operator==(const WeightedArc&, const WeightedArc&) = default;
+};
+
+/// Working memory that keeps its capacity from frame to frame.
+struct MergeScratch {
+  std::vector<WeightedArc> arcs;      ///< Between groups, as contraction leaves them.
+  std::vector<uint32_t> best;         ///< For each group the arc that it likes best.
+  std::vector<uint32_t> parent;       ///< For each group what it was merged into.
+  std::vector<uint32_t> alternative;  ///< A second partition, to compare with.
+  std::vector<uint32_t> firstArc;  ///< Neighbours of node i: firstArc[i] … firstArc[i + 1] − 1.
+  std::vector<WeightedArc> neighbours;  ///< a = the node, b = its neighbour.
+  std::vector<int64_t> pull;            ///< Of a node towards each group.
+  std::vector<uint32_t> groupSize;
+  std::vector<uint32_t> touched;
+};
+
+/// Votes for motions of −kReach … kReach px on each axis.
+struct VoteScratch {
+  static constexpr int kReach = 65;
+  static constexpr int kSide = 2 * kReach + 1;
+  struct Cell {
+    int64_t weight, momentX, momentY;
+  };
+  std::vector<Cell> cells;
+};
+
+/// Merged regions.
+struct Group {
+  uint32_t areaPx = 0;
+  uint32_t regionCount = 0;
+  Box box;
+  int32_t dx = 0;  ///< Mean of the members' motion by area and reliability, in 1/16 px.
+  int32_t dy = 0;
+  uint16_t reliability = 0;  ///< Mean of the members' by area.
+  int64_t momentX = 0;       ///< Sum of area x reliability x motion, of which dx is the mean.
+  int64_t momentY = 0;
+  int64_t weight = 0;  ///< Sum of area x reliability.
+};
+
+/// The graph's arcs with their weights. predicted[i]: what object region i is expected to belong
+/// to, 0 = none; an empty span = nothing is expected.
+void weighArcs(const Motion& motion, std::span<const uint32_t> predicted,
+               const MergeWeights& weights, std::vector<WeightedArc>& arcs);
+
+/// Sum of the weights of the arcs inside groups: what minimising U maximises.
+[[nodiscard]] int64_t keptWeight(std::span<const WeightedArc> arcs,
+                                 std::span<const uint32_t> groupOf);
+
+/// Groups the nodes so that keptWeight is as large as contraction by mutual best choice and a local
+/// search make it. If `groupOf` comes with an entry per node, that partition is a second start and
+/// the better end is taken. Every group of the result is connected by arcs.
+/// Time: O(E log E) for each of at most kMaxRounds rounds, and O(E) for each sweep of the search.
+void minimise(uint32_t nodeCount, std::span<const WeightedArc> arcs, MergeScratch& scratch,
+              std::vector<uint32_t>& groupOf);
+
+/// What the groups of a partition have in common.
+void describeGroups(const Motion& motion, std::span<const uint32_t> groupOf,
+                    std::vector<Group>& groups);
+
+/// The motion that most pixels agree on: the regions vote by area and reliability for whole pixels,
+/// 3x3 neighbours count as one; the shorter motion wins ties. Reliability 0 where nobody votes.
+[[nodiscard]] RegionMotion dominantMotion(const Motion& motion, VoteScratch& scratch);
+
+}  // namespace rg

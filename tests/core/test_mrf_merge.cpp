@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "core/mrf_merge.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+namespace rg {
+namespace {
+
+using testing::ElementsAre;
+
+std::vector<uint32_t> solve(uint32_t nodeCount, const std::vector<WeightedArc>& arcs) {
+  MergeScratch scratch;
+  std::vector<uint32_t> groupOf;
+  minimise(nodeCount, arcs, scratch, groupOf);
+  return groupOf;
+}
+
+/// Regions of 100 px in a row, neighbours share `borderPx`.
+struct Row {
+  std::shared_ptr<Graph> graph = std::make_shared<Graph>();
+  Motion motion;
+
+  explicit Row(const std::vector<RegionMotion>& motions, uint32_t borderPx = 4) {
+    for (size_t i = 0; i < motions.size(); ++i) {
+      const int x = static_cast<int>(i) * 10;
+      graph->regions.push_back({100, {x, 0, 10, 10}, (x + 5) * 256, 5 * 256, {}});
+      if (i > 0) {
+        const auto label = static_cast<uint16_t>(i);
+        graph->arcs.push_back({label, static_cast<uint16_t>(label + 1), borderPx, 0});
+      }
+    }
+    motion.graph = graph;
+    motion.regions = motions;
+  }
+  std::vector<uint32_t> groups(const std::vector<uint32_t>& predicted = {}) const {
+    std::vector<WeightedArc> arcs;
+    weighArcs(motion, predicted, {}, arcs);
+    return solve(static_cast<uint32_t>(motion.regions.size()), arcs);
+  }
+};
+
+constexpr RegionMotion kStill{0, 0, 0, kFullReliability};
+constexpr RegionMotion kFast{10 * kMotionUnit, 0, 0, kFullReliability};
+constexpr RegionMotion kUnknown{};
+
+TEST(MrfMerge, RegionsThatMoveApartAreDifferentGroups) {
+  EXPECT_THAT(Row({kStill, kStill, kFast, kFast}).groups(), ElementsAre(0, 0, 1, 1));
+}
+
+TEST(MrfMerge, RegionsWithoutReliableMotionAreJoinedByGeometry) {
+  EXPECT_THAT(Row({kUnknown, kUnknown, kUnknown}).groups(), ElementsAre(0, 0, 0));
+  const RegionMotion wild{300, -300, 0, 0};
+  EXPECT_THAT(Row({kStill, wild, kStill}).groups(), ElementsAre(0, 0, 0));
+}
+
+TEST(MrfMerge, SpeedsBelowTheThresholdAreAlike) {
+  const RegionMotion slow{2 * kMotionUnit, 0, 0, kFullReliability};
+  EXPECT_THAT(Row({kStill, slow}, 0).groups(), ElementsAre(0, 0));
+}
+
+TEST(MrfMerge, ALongBorderOutweighsMotion) {
+  EXPECT_THAT(Row({kStill, kFast}, 4).groups(), ElementsAre(0, 1));
+  EXPECT_THAT(Row({kStill, kFast}, 40).groups(), ElementsAre(0, 0));
+}
+
+TEST(MrfMerge, PredictionHoldsTogetherWhatWasOneObject) {
+  const Row row({kStill, kFast}, 2);
+  EXPECT_THAT(row.groups(), ElementsAre(0, 1));
+  EXPECT_THAT(row.groups({7, 7}), ElementsAre(0, 0));
+  EXPECT_THAT(row.groups({7, 8}), ElementsAre(0, 1));
+}
+
+TEST(MrfMerge, NoNodesAndNoArcsAreFine) {
+  EXPECT_TRUE(solve(0, {}).empty());
+  EXPECT_THAT(solve(3, {}), ElementsAre(0, 1, 2));
+}
+
+TEST(MrfMerge, AGroupIsConnectedByArcs) {
+  // 0 and 2 like 1 apart from each other; without arcs between them they are no group.
+  EXPECT_THAT(solve(3, {{0, 1, -5}, {1, 2, -5}}), ElementsAre(0, 1, 2));
+}
+
+TEST(MrfMerge, AChainOfRisingWeightsIsJoinedWithinItsRounds) {
+  std::vector<WeightedArc> arcs;
+  for (uint32_t i = 0; i + 1 < 1000; ++i) arcs.push_back({i, i + 1, i + 1});
+  const auto groups = solve(1000, arcs);
+  EXPECT_EQ(*std::max_element(groups.begin(), groups.end()), 0u);
+}
+
+TEST(MrfMerge, StartsFromAPartitionOnlyWhereThatIsBetter) {
+  const std::vector<WeightedArc> arcs{{0, 1, 5}, {1, 2, -9}, {2, 3, 5}};
+  MergeScratch scratch;
+  std::vector<uint32_t> groupOf{0, 1, 1, 0};
+  minimise(4, arcs, scratch, groupOf);
+  EXPECT_THAT(groupOf, ElementsAre(0, 0, 1, 1));
+}
+
+std::vector<WeightedArc> randomGrid(int side, std::mt19937& random) {
+  std::uniform_int_distribution<int> weight(-1000, 1000);
+  std::vector<WeightedArc> arcs;
+  for (int i = 0; i < side * side; ++i) {
+    const auto node = static_cast<uint32_t>(i);
+    if (i % side + 1 < side) arcs.push_back({node, node + 1, weight(random)});
+    if (i / side + 1 < side)
+      arcs.push_back({node, node + static_cast<uint32_t>(side), weight(random)});
+  }
+  return arcs;
+}
+
+/// The most weight that any partition of `nodeCount` nodes keeps: all restricted growth strings.
+class Exhaustive {
+ public:
+  Exhaustive(uint32_t nodeCount, const std::vector<WeightedArc>& arcs) : weights_(nodeCount) {
+    for (const WeightedArc& arc : arcs) weights_[arc.b].push_back({arc.a, arc.weight});
+    for (uint32_t node = nodeCount; node-- > 0;) {
+      int64_t gain = node + 1 < nodeCount ? bound_[node + 1] : 0;
+      for (const auto& [other, weight] : weights_[node]) gain += std::max<int64_t>(0, weight);
+      bound_[node] = gain;
+    }
+    visit(0, 0, 0);
+  }
+  int64_t best() const { return best_; }
+
+ private:
+  void visit(uint32_t node, uint32_t groups, int64_t kept) {
+    if (node == weights_.size()) {
+      best_ = std::max(best_, kept);
+      return;
+    }
+    if (kept + bound_[node] <= best_) return;
+    for (uint32_t group = 0; group <= groups; ++group) {
+      groupOf_[node] = group;
+      int64_t gain = 0;
+      for (const auto& [other, weight] : weights_[node])
+        if (groupOf_[other] == group) gain += weight;
+      visit(node + 1, std::max(groups, group + 1), kept + gain);
+    }
+  }
+  std::vector<std::vector<std::pair<uint32_t, int64_t>>> weights_;
+  std::array<uint32_t, 32> groupOf_{};
+  std::array<int64_t, 33> bound_{};
+  int64_t best_ = 0;
+};
+
+TEST(MrfMerge, ComesCloseToTheOptimumOfRandomGrids) {
+  std::mt19937 random(5);
+  double gapSum = 0;
+  int optimal = 0;
+  constexpr int kGraphs = 300;
+  for (int i = 0; i < kGraphs; ++i) {
+    const auto arcs = randomGrid(4, random);
+    const int64_t best = Exhaustive(16, arcs).best();
+    const int64_t kept = keptWeight(arcs, solve(16, arcs));
+    ASSERT_LE(kept, best);
+    optimal += kept == best;
+    gapSum += static_cast<double>(best - kept) / static_cast<double>(best);
+  }
+  RecordProperty("optimal", optimal);
+  EXPECT_LE(gapSum / kGraphs, 0.002);
+  EXPECT_GE(optimal, kGraphs * 9 / 10);
+}
+
+TEST(MrfMerge, TheOrderOfTheArcsChangesNothing) {
+  std::mt19937 random(11);
+  for (int i = 0; i < 50; ++i) {
+    auto arcs = randomGrid(8, random);
+    for (WeightedArc& arc : arcs) arc.weight /= 300;  // Many ties.
+    const auto groups = solve(64, arcs);
+    std::shuffle(arcs.begin(), arcs.end(), random);
+    EXPECT_EQ(solve(64, arcs), groups);
+  }
+}
+
+TEST(MrfMerge, GroupsAreMeansByAreaAndReliability) {
+  Row row({{16, 0, 0, 256}, {0, 32, 0, 64}, kUnknown});
+  std::vector<Group> groups;
+  describeGroups(row.motion, std::vector<uint32_t>{0, 0, 1}, groups);
+  ASSERT_EQ(groups.size(), 2u);
+  EXPECT_EQ(groups[0].areaPx, 200u);
+  EXPECT_EQ(groups[0].box, (Box{0, 0, 20, 10}));
+  EXPECT_EQ(groups[0].dx, 13);  // 16 · 256 / 320, rounded
+  EXPECT_EQ(groups[0].dy, 6);
+  EXPECT_EQ(groups[0].reliability, 160);
+  EXPECT_EQ(groups[1].reliability, 0);
+}
+
+TEST(MrfMerge, TheDominantMotionIsWhatMostReliablePixelsDo) {
+  Row row({{33, 0, 0, 200}, {31, 2, 0, 200}, {-160, 0, 0, 256}, {500, 500, 0, 0}});
+  VoteScratch scratch;
+  const RegionMotion motion = dominantMotion(row.motion, scratch);
+  EXPECT_EQ(motion.dx, 32);
+  EXPECT_EQ(motion.dy, 1);
+  EXPECT_EQ(dominantMotion(Row({kUnknown}).motion, scratch).reliability, 0);
+}
+
+}  // namespace
+}  // namespace rg
