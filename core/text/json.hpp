@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// JSON lines: one object a frame, as gst/regiongraph.schema.json describes it.
+#pragma once
+
+#include "core/objects.hpp"
+#include "core/text/line.hpp"
+
+#include <string>
+#include <string_view>
+
+namespace rg::text {
+
+/// Changes with the schema: the second number when fields are added, the first when one changes.
+inline constexpr std::string_view kJsonSchemaVersion = "1.0";
+
+enum class Contours : uint8_t { Omit, Write };
+
+/// Appends one line. Objects in the order of their ids, those of isListed() states only.
+/// Keys x, y, w, h, id and resolution mean what they mean in DL Streamer's JSON.
+void appendJson(std::string& out, const Objects& objects, const FrameStamp& stamp,
+                Contours contours);
+
+}  // namespace rg::text

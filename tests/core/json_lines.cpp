@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Prints what the JSON writer makes of results that use every field and every word that it knows.
+// test_schema.py holds the lines against the published schema.
+#include "core/text/json.hpp"
+
+#include <cstdint>
+#include <iostream>
+#include <limits>
+
+namespace rg {
+namespace {
+
+Object makeObject(uint64_t id, ObjectState state) {
+  Object object;
+  object.id = id;
+  object.state = state;
+  object.box = {static_cast<int>(id) * 7 - 20, -3, 12, 30};
+  object.areaPx = static_cast<uint32_t>(id) * 11;
+  object.centroidX = 161;
+  object.centroidY = -8;
+  object.speedX = -4000;
+  object.speedY = 1;
+  object.hasSpeed = id % 2 == 0;
+  object.ageFrames = 1;
+  object.colour = {0, 128, 255};
+  for (uint64_t parent = 1; parent < id; ++parent) object.parents.push_back(parent);
+  object.contour = {{-8, -3}, {3, -3}, {3, 26}};
+  return object;
+}
+
+Objects makeObjects() {
+  Objects objects;
+  objects.size = {320, 240};
+  objects.status = Status::Ok;
+  objects.cameraDx = -5;
+  uint64_t id = 0;
+  for (const auto state : {ObjectState::New, ObjectState::Tracked, ObjectState::Stopped,
+                           ObjectState::Occluded, ObjectState::Lost})
+    objects.objects.push_back(makeObject(++id, state));
+  objects.events = {{EventKind::ObjectNew, {1}},
+                    {EventKind::ObjectEnd, {5}},
+                    {EventKind::Merge, {2, 3}},
+                    {EventKind::Split, {3, 4}},
+                    {EventKind::SceneChanged, {}}};
+  return objects;
+}
+
+/// Numbers as far out as their types go.
+Objects makeExtremes() {
+  Objects objects = makeObjects();
+  Object& object = objects.objects[1];
+  object.id = std::numeric_limits<uint64_t>::max();
+  object.box = {-1'000'000, 1'000'000, 1'000'000, 0};
+  object.areaPx = std::numeric_limits<uint32_t>::max();
+  object.centroidX = std::numeric_limits<int32_t>::max();
+  object.centroidY = std::numeric_limits<int32_t>::min();
+  object.speedX = std::numeric_limits<int32_t>::min();
+  object.hasSpeed = true;
+  return objects;
+}
+
+void print() {
+  using text::Contours;
+  constexpr auto kLatest = std::numeric_limits<uint64_t>::max();
+  std::string out;
+  text::appendJson(out, {}, {1, {1, 1}, {}, {}}, Contours::Omit);
+  Objects objects = makeObjects();
+  for (const auto status : {Status::Ok, Status::Training, Status::Skipped}) {
+    objects.status = status;
+    text::appendJson(out, objects, {2, {320, 240}, 40'000'000, {}}, Contours::Omit);
+    text::appendJson(out, objects, {3, {640, 360}, 0, 1'763'722'800'000'000'001}, Contours::Write);
+  }
+  text::appendJson(out, makeExtremes(), {kLatest, {16384, 16384}, kLatest, kLatest},
+                   Contours::Write);
+  std::cout << out;
+}
+
+}  // namespace
+}  // namespace rg
+
+int main() {
+  rg::print();
+}

@@ -1,0 +1,79 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Holds lines of the JSON writer against the published schema, with python3-jsonschema.
+
+usage: test_schema.py SCHEMA WRITER        WRITER is a program that prints JSON lines
+
+Every line has to pass. Then each of them is spoilt in ways that the schema has to notice: a schema
+that lets anything through fails this test.
+"""
+import copy
+import json
+import subprocess
+import sys
+
+try:
+    import jsonschema
+except ImportError:
+    sys.exit('test_schema: python3-jsonschema is missing; tests/setup.sh installs it')
+
+
+def drop(key):
+    return f'without {key}', lambda line: line.pop(key)
+
+
+def put(key, value):
+    return f'{key} = {value!r}', lambda line: line.update({key: value})
+
+
+SPOILT_FRAMES = [drop(key) for key in ('schema', 'frame', 'pts', 'status', 'resolution', 'camera',
+                                       'objects', 'events')]
+SPOILT_FRAMES += [put('schema', '2.0'), put('frame', 0), put('frame', 1.5), put('pts', -1),
+                  put('pts', '0'), put('utc', '2026-11-21 11:00:00'), put('status', 'fine'),
+                  put('resolution', {'width': 0, 'height': 1}), put('camera', {'x': 0}),
+                  put('objects', {}), put('extra', 1)]
+SPOILT_OBJECTS = [drop(key) for key in ('id', 'state', 'x', 'y', 'w', 'h', 'centroid', 'area',
+                                        'velocity', 'age', 'colour', 'parents')]
+SPOILT_OBJECTS += [put('id', 0), put('state', 'new'), put('state', 'lost'), put('x', 0.5),
+                   put('w', -1), put('area', -1), put('velocity', {'x': 1}), put('velocity', 3),
+                   put('colour', '#12345G'), put('parents', [0]), put('parents', [1, 1]),
+                   put('contour', [[1]]), put('extra', 1)]
+SPOILT_EVENTS = [drop('type'), drop('ids'), put('type', 'birth'), put('ids', ['1'])]
+
+
+def spoilt(line):
+    """Copies of the line with one fault each, and what the fault is."""
+    parts = [('frame', lambda copied: copied, SPOILT_FRAMES)]
+    if line['objects']:
+        parts.append(('object', lambda copied: copied['objects'][-1], SPOILT_OBJECTS))
+    if line['events']:
+        parts.append(('event', lambda copied: copied['events'][0], SPOILT_EVENTS))
+    for name, part, faults in parts:
+        for what, spoil in faults:
+            copied = copy.deepcopy(line)
+            spoil(part(copied))
+            yield f'{name} {what}', copied
+
+
+def main():
+    schema_path, writer = sys.argv[1:]
+    with open(schema_path, encoding='utf-8') as file:
+        schema = json.load(file)
+    jsonschema.Draft202012Validator.check_schema(schema)
+    validator = jsonschema.Draft202012Validator(schema)
+    output = subprocess.run([writer], check=True, capture_output=True).stdout.decode('ascii')
+    lines = [json.loads(line) for line in output.splitlines()]
+    findings = []
+    for number, line in enumerate(lines, 1):
+        findings += [f'line {number}: {error.json_path}: {error.message}'
+                     for error in validator.iter_errors(line)]
+        findings += [f'line {number}: the schema accepts a line with this fault: {what}'
+                     for what, bad in spoilt(line) if validator.is_valid(bad)]
+    if len({len(line['objects']) for line in lines}) < 2 or not any('utc' in line for line in lines):
+        findings.append('the lines do not show all that the writer can do')
+    print('\n'.join(findings) or f'{len(lines)} lines agree with {schema["$id"]}')
+    sys.exit(bool(findings))
+
+
+if __name__ == '__main__':
+    main()
