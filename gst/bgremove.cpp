@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+/**
+ * SECTION:element-bgremove
+ * @title: bgremove
+ *
+ * Tells the moving foreground of a still camera's picture from its background, and attaches the
+ * mask to each buffer; the pixels pass untouched.
+ *
+ * |[
+ * gst-launch-1.0 filesrc location=clip.avi ! decodebin ! videoconvert ! bgremove !
+ *   regionmask source=foreground ! videoconvert ! autovideosink
+ * ]|
+ */
+#include "core/background.hpp"
+#include "gst/elements.hpp"
+#include "gst/support/frame_loader.hpp"
+#include "gst/support/stage_filter.hpp"
+
+#include <array>
+
+namespace rg {
+namespace {
+
+GType methodType() {
+  static const GEnumValue values[] = {
+      {static_cast<int>(BackgroundMethod::Hybrid),
+       "Several colours per pixel, holes filled, shadows, ghosts and light changes handled",
+       "hybrid"},
+      {static_cast<int>(BackgroundMethod::Paper),
+       "One Gaussian per pixel as in section 2.2.1 of the paper", "paper"},
+      {0, nullptr, nullptr}};
+  static const GType type = registerEnum("GstRegionBackgroundMethod", values);
+  return type;
+}
+
+struct Settings : StageSettings, BackgroundParams {
+  guint64 badBuffers = 0;
+};
+
+constexpr std::array kProperties{
+    enumProperty<Settings, &Settings::method>("method", "How the background is modelled",
+                                              methodType),
+    property<Settings, &Settings::trainingFrames>(
+        "training-frames",
+        "Frames from which the first model is learnt. With method=paper nothing is foreground "
+        "until "
+        "then; method=hybrid finds things from the start and only learns faster",
+        1, 65535),
+    property<Settings, &Settings::learningTimeS>(
+        "learning-time", "Seconds in which the model follows a slow change of the background", 0.1,
+        3600),
+    property<Settings, &Settings::threshold>(
+        "threshold",
+        "Least difference from the background, in grey levels of a channel, that can be "
+        "foreground; "
+        "0 = found by the method from the noise of the picture",
+        0, 255),
+    property<Settings, &Settings::findsShadows>(
+        "shadows", "Tell cast shadows from foreground: they get 128 in the mask instead of 255"),
+    property<Settings, &Settings::absorbTimeS>(
+        "absorb-time",
+        "Seconds after which a thing that stopped moving becomes part of the background", 0.1,
+        86400),
+    threadsProperty<Settings>(),
+    property<Settings, &Settings::badBuffers>(
+        "bad-buffers",
+        "Frames passed on unread, because their memory is not what their caps or "
+        "GstVideoMeta promise",
+        0, 0, Mutable::Never),
+};
+
+class BgRemove final : public StageFilter {
+ public:
+  using StageFilter::StageFilter;
+
+  void* settings() override { return &settings_; }
+
+  bool start() override {
+    const Context context = makeContext(snapshot(settings_).threads);
+    executor_ = context.cpu;
+    stage_ = makeBackgroundStage(context);
+    return true;
+  }
+  void stop() override { stage_.reset(); }
+  void reset(Reset what) override {
+    if (stage_) stage_->reset(what);
+  }
+
+  GstFlowReturn process(const FilterFrame& frame) override {
+    if (!frame.isUsable) {
+      attachSkipped<Foreground>(frame);
+      return GST_FLOW_OK;
+    }
+    auto picture = loader_.load(frame.buffer, frame.info, *executor_);
+    if (!picture) {
+      {
+        const std::lock_guard lock(settingsMutex());
+        ++settings_.badBuffers;
+      }
+      attach<Foreground>(frame, picture.error());
+      return GST_FLOW_OK;
+    }
+    attach<Foreground>(frame,
+                       stage_->process(*std::move(picture), snapshot(settings_), frame.time));
+    return GST_FLOW_OK;
+  }
+
+ private:
+  Settings settings_;
+  std::shared_ptr<const Executor> executor_;
+  std::unique_ptr<BackgroundStage> stage_;
+  FrameLoader loader_;
+};
+
+const Settings kDefaults;
+const FilterDescription kDescription{
+    .elementName = "bgremove",
+    .typeName = "GstRegionBgRemove",
+    .longName = "Background removal",
+    .klass = "Filter/Analyzer/Video",
+    .description =
+        "Marks the moving foreground of a still camera's picture in a meta on each buffer",
+    .caps = kPixelCaps,
+    .properties = kProperties,
+    .defaults = &kDefaults,
+    .create = [](GstBaseTransform* element) -> Filter* { return new BgRemove(element); },
+};
+
+}  // namespace
+}  // namespace rg
+
+GType gst_region_bgremove_get_type() {
+  static const GType type = rg::registerFilter(rg::kDescription);
+  return type;
+}
+GST_ELEMENT_REGISTER_DEFINE(bgremove, "bgremove", GST_RANK_NONE, gst_region_bgremove_get_type())

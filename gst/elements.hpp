@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The element types of the plugin. regiontrack makes its children from them, without the registry.
+#pragma once
+
+#include <gst/gst.h>
+
+GType gst_region_bgremove_get_type();
+GType gst_region_hsvsegment_get_type();
+GType gst_region_srg_get_type();
+GType gst_region_prmmotion_get_type();
+GType gst_region_mrfmerge_get_type();
+
+GST_ELEMENT_REGISTER_DECLARE(bgremove)
+GST_ELEMENT_REGISTER_DECLARE(hsvsegment)
+GST_ELEMENT_REGISTER_DECLARE(srg)
+GST_ELEMENT_REGISTER_DECLARE(prmmotion)
+GST_ELEMENT_REGISTER_DECLARE(mrfmerge)

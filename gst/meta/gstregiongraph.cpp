@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The public functions: results as plain C values.
+#include "gst/meta/gstregiongraph.h"
+
+#include "gst/meta/result_meta.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <new>
+
+namespace {
+
+using rg::Box;
+using rg::Colour;
+
+template <class Payload, class Meta>
+const Payload& resultOf(Meta* meta) {
+  return *reinterpret_cast<const rg::ResultMeta<Payload>*>(meta)->result;
+}
+
+GstRegionStatus publicStatus(rg::Status status) {
+  switch (status) {
+    case rg::Status::Ok:
+      return GST_REGION_STATUS_OK;
+    case rg::Status::Training:
+      return GST_REGION_STATUS_TRAINING;
+    case rg::Status::Skipped:
+      break;
+  }
+  return GST_REGION_STATUS_SKIPPED;
+}
+
+GstRegionObjectState publicState(rg::ObjectState state) {
+  switch (state) {
+    case rg::ObjectState::New:
+      return GST_REGION_OBJECT_STATE_NEW;
+    case rg::ObjectState::Tracked:
+      return GST_REGION_OBJECT_STATE_TRACKED;
+    case rg::ObjectState::Stopped:
+      return GST_REGION_OBJECT_STATE_STOPPED;
+    case rg::ObjectState::Occluded:
+      return GST_REGION_OBJECT_STATE_OCCLUDED;
+    case rg::ObjectState::Lost:
+      break;
+  }
+  return GST_REGION_OBJECT_STATE_LOST;
+}
+
+GstRegionBox publicBox(const Box& box) {
+  return {box.x, box.y, box.width, box.height};
+}
+
+GstRegionColour publicColour(Colour colour) {
+  return {colour.red, colour.green, colour.blue};
+}
+
+template <class Payload>
+GstRegionStatus statusAndSize(const Payload& result, gint* width, gint* height) {
+  if (width) *width = result.size.width;
+  if (height) *height = result.size.height;
+  return publicStatus(result.status);
+}
+
+/// Keeps `owner` alive for as long as the plane is mapped.
+template <class Payload, class T>
+gboolean mapPlane(const std::shared_ptr<const Payload>& owner, rg::ImageView<const T> pixels,
+                  GstRegionPlane* plane, GError** error) {
+  if (owner->status == rg::Status::Skipped || pixels.size.isEmpty()) {
+    g_set_error_literal(error, GST_STREAM_ERROR, GST_STREAM_ERROR_FAILED,
+                        "this frame was skipped, there are no pixels to map");
+    return FALSE;
+  }
+  auto* hold = new (std::nothrow) std::shared_ptr<const void>(owner);
+  if (!hold) {
+    g_set_error_literal(error, GST_CORE_ERROR, GST_CORE_ERROR_FAILED, "out of memory");
+    return FALSE;
+  }
+  *plane = {pixels.data,     pixels.width(),
+            pixels.height(), static_cast<gint>(pixels.strideBytes),
+            sizeof(T),       {}};
+  plane->_private[0] = hold;
+  return TRUE;
+}
+
+template <class Payload, class Meta>
+const std::shared_ptr<const Payload>& sharedResultOf(Meta* meta) {
+  return reinterpret_cast<const rg::ResultMeta<Payload>*>(meta)->result;
+}
+
+const rg::Object* objectAt(GstRegionObjectsMeta* meta, guint index) {
+  const auto& objects = resultOf<rg::Objects>(meta).objects;
+  return index < objects.size() ? &objects[index] : nullptr;
+}
+
+}  // namespace
+
+GstRegionStatus gst_region_foreground_meta_get_status(GstRegionForegroundMeta* meta, gint* width,
+                                                      gint* height) {
+  g_return_val_if_fail(meta, GST_REGION_STATUS_SKIPPED);
+  return statusAndSize(resultOf<rg::Foreground>(meta), width, height);
+}
+
+guint gst_region_foreground_meta_get_n_areas(GstRegionForegroundMeta* meta) {
+  g_return_val_if_fail(meta, 0);
+  return static_cast<guint>(resultOf<rg::Foreground>(meta).areas.size());
+}
+
+gboolean gst_region_foreground_meta_get_area(GstRegionForegroundMeta* meta, guint index,
+                                             GstRegionBox* box) {
+  g_return_val_if_fail(meta && box, FALSE);
+  const auto& areas = resultOf<rg::Foreground>(meta).areas;
+  if (index >= areas.size()) return FALSE;
+  *box = publicBox(areas[index]);
+  return TRUE;
+}
+
+gboolean gst_region_foreground_meta_map(GstRegionForegroundMeta* meta, GstRegionPlane* plane,
+                                        GError** error) {
+  g_return_val_if_fail(meta && plane, FALSE);
+  const auto& result = sharedResultOf<rg::Foreground>(meta);
+  return mapPlane(result, result->mask.view(), plane, error);
+}
+
+GstRegionStatus gst_region_labels_meta_get_status(GstRegionLabelsMeta* meta, gint* width,
+                                                  gint* height) {
+  g_return_val_if_fail(meta, GST_REGION_STATUS_SKIPPED);
+  return statusAndSize(resultOf<rg::Labels>(meta), width, height);
+}
+
+GstRegionScope gst_region_labels_meta_get_scope(GstRegionLabelsMeta* meta) {
+  g_return_val_if_fail(meta, GST_REGION_SCOPE_FRAME);
+  return resultOf<rg::Labels>(meta).scope == rg::Scope::Frame ? GST_REGION_SCOPE_FRAME
+                                                              : GST_REGION_SCOPE_FOREGROUND;
+}
+
+guint gst_region_labels_meta_get_n_regions(GstRegionLabelsMeta* meta) {
+  g_return_val_if_fail(meta, 0);
+  return resultOf<rg::Labels>(meta).count;
+}
+
+gboolean gst_region_labels_meta_map(GstRegionLabelsMeta* meta, GstRegionPlane* plane,
+                                    GError** error) {
+  g_return_val_if_fail(meta && plane, FALSE);
+  const auto& result = sharedResultOf<rg::Labels>(meta);
+  return mapPlane(result, result->ids.view(), plane, error);
+}
+
+GstRegionStatus gst_region_graph_meta_get_status(GstRegionGraphMeta* meta, gint* width,
+                                                 gint* height) {
+  g_return_val_if_fail(meta, GST_REGION_STATUS_SKIPPED);
+  return statusAndSize(resultOf<rg::Graph>(meta), width, height);
+}
+
+guint gst_region_graph_meta_get_n_regions(GstRegionGraphMeta* meta) {
+  g_return_val_if_fail(meta, 0);
+  return static_cast<guint>(resultOf<rg::Graph>(meta).regions.size());
+}
+
+gboolean gst_region_graph_meta_get_region(GstRegionGraphMeta* meta, guint index,
+                                          GstRegion* region) {
+  g_return_val_if_fail(meta && region, FALSE);
+  const auto& regions = resultOf<rg::Graph>(meta).regions;
+  if (index >= regions.size()) return FALSE;
+  const rg::Region& from = regions[index];
+  *region = {index + 1,
+             from.areaPx,
+             publicBox(from.box),
+             from.centroidX / 256.0,
+             from.centroidY / 256.0,
+             publicColour(from.colour),
+             {}};
+  return TRUE;
+}
+
+guint gst_region_graph_meta_get_n_arcs(GstRegionGraphMeta* meta) {
+  g_return_val_if_fail(meta, 0);
+  return static_cast<guint>(resultOf<rg::Graph>(meta).arcs.size());
+}
+
+gboolean gst_region_graph_meta_get_arc(GstRegionGraphMeta* meta, guint index, GstRegionArc* arc) {
+  g_return_val_if_fail(meta && arc, FALSE);
+  const auto& arcs = resultOf<rg::Graph>(meta).arcs;
+  if (index >= arcs.size()) return FALSE;
+  const rg::Arc& from = arcs[index];
+  const double contrast = from.borderPx ? static_cast<double>(from.contrast) / from.borderPx : 0.0;
+  *arc = {from.a, from.b, from.borderPx, contrast, {}};
+  return TRUE;
+}
+
+GstRegionStatus gst_region_motion_meta_get_status(GstRegionMotionMeta* meta, gint* width,
+                                                  gint* height) {
+  g_return_val_if_fail(meta, GST_REGION_STATUS_SKIPPED);
+  return statusAndSize(resultOf<rg::Motion>(meta), width, height);
+}
+
+guint gst_region_motion_meta_get_n_regions(GstRegionMotionMeta* meta) {
+  g_return_val_if_fail(meta, 0);
+  return static_cast<guint>(resultOf<rg::Motion>(meta).regions.size());
+}
+
+gboolean gst_region_motion_meta_get_vector(GstRegionMotionMeta* meta, guint index,
+                                           GstRegionVector* vector) {
+  g_return_val_if_fail(meta && vector, FALSE);
+  const auto& regions = resultOf<rg::Motion>(meta).regions;
+  if (index >= regions.size()) return FALSE;
+  const rg::RegionMotion& from = regions[index];
+  constexpr double kUnit = rg::kMotionUnit;
+  *vector = {from.dx / kUnit,
+             from.dy / kUnit,
+             from.sad,
+             from.reliability / double{rg::kFullReliability},
+             {}};
+  return TRUE;
+}
+
+GstRegionStatus gst_region_objects_meta_get_status(GstRegionObjectsMeta* meta, gint* width,
+                                                   gint* height) {
+  g_return_val_if_fail(meta, GST_REGION_STATUS_SKIPPED);
+  return statusAndSize(resultOf<rg::Objects>(meta), width, height);
+}
+
+guint gst_region_objects_meta_get_n_objects(GstRegionObjectsMeta* meta) {
+  g_return_val_if_fail(meta, 0);
+  return static_cast<guint>(resultOf<rg::Objects>(meta).objects.size());
+}
+
+gboolean gst_region_objects_meta_get_object(GstRegionObjectsMeta* meta, guint index,
+                                            GstRegionObject* object) {
+  g_return_val_if_fail(meta && object, FALSE);
+  const rg::Object* from = objectAt(meta, index);
+  if (!from) return FALSE;
+  constexpr double kUnit = rg::kPositionUnit;
+  *object = {};
+  object->id = from->id;
+  object->state = publicState(from->state);
+  object->box = publicBox(from->box);
+  object->area = from->areaPx;
+  object->centroid_x = from->centroidX / kUnit;
+  object->centroid_y = from->centroidY / kUnit;
+  object->has_velocity = from->hasSpeed;
+  object->velocity_x = from->speedX / kUnit;
+  object->velocity_y = from->speedY / kUnit;
+  object->age = from->ageFrames;
+  object->colour = publicColour(from->colour);
+  object->n_parents = static_cast<guint>(from->parents.size());
+  object->n_contour = static_cast<guint>(from->contour.size());
+  return TRUE;
+}
+
+guint64 gst_region_objects_meta_get_parent(GstRegionObjectsMeta* meta, guint index, guint parent) {
+  g_return_val_if_fail(meta, 0);
+  const rg::Object* object = objectAt(meta, index);
+  return object && parent < object->parents.size() ? object->parents[parent] : 0;
+}
+
+gboolean gst_region_objects_meta_get_contour_point(GstRegionObjectsMeta* meta, guint index,
+                                                   guint point, gint* x, gint* y) {
+  g_return_val_if_fail(meta && x && y, FALSE);
+  const rg::Object* object = objectAt(meta, index);
+  if (!object || point >= object->contour.size()) return FALSE;
+  *x = object->contour[point].x;
+  *y = object->contour[point].y;
+  return TRUE;
+}
+
+guint64 gst_region_objects_meta_get_region_object(GstRegionObjectsMeta* meta, guint region) {
+  g_return_val_if_fail(meta, 0);
+  const auto& owners = resultOf<rg::Objects>(meta).regionObject;
+  return region >= 1 && region <= owners.size() ? owners[region - 1] : 0;
+}
+
+void gst_region_objects_meta_get_camera_motion(GstRegionObjectsMeta* meta, gdouble* dx,
+                                               gdouble* dy) {
+  g_return_if_fail(meta && dx && dy);
+  constexpr double kUnit = rg::kMotionUnit;
+  *dx = resultOf<rg::Objects>(meta).cameraDx / kUnit;
+  *dy = resultOf<rg::Objects>(meta).cameraDy / kUnit;
+}
+
+gboolean gst_region_objects_meta_map(GstRegionObjectsMeta* meta, GstRegionPlane* plane,
+                                     GError** error) {
+  g_return_val_if_fail(meta && plane, FALSE);
+  const auto& result = sharedResultOf<rg::Objects>(meta);
+  return mapPlane(result, result->slots.view(), plane, error);
+}
+
+void gst_region_plane_unmap(GstRegionPlane* plane) {
+  g_return_if_fail(plane);
+  delete static_cast<std::shared_ptr<const void>*>(plane->_private[0]);
+  *plane = {};
+}

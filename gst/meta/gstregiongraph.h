@@ -1,0 +1,303 @@
+/* SPDX-License-Identifier: LGPL-2.1-or-later */
+/**
+ * What the regiongraph elements say of a frame, as metas on its buffer.
+ *
+ * bgremove attaches a foreground meta, hsvsegment labels, srg a graph, prmmotion motion, mrfmerge
+ * objects. A meta is immutable; copies and scaled versions of the buffer share it, cropped ones
+ * lose it. Coordinates are pixels of the frame that was analysed, whose size each meta tells: on a
+ * buffer that was scaled since, multiply by the ratio of the sizes.
+ *
+ * The functions may be called from any thread while the buffer is alive. An index out of range
+ * gives FALSE and leaves the output as it was.
+ */
+#ifndef GST_REGION_GRAPH_H
+#define GST_REGION_GRAPH_H
+
+#include "gstregiontypes.h"
+
+#include <gst/gst.h>
+
+G_BEGIN_DECLS
+
+#ifndef GST_REGION_API
+#define GST_REGION_API extern
+#endif
+
+/* The metas' types, for allocation queries and for iterating over a buffer's metas. */
+GST_REGION_API GType gst_region_foreground_meta_api_get_type(void);
+GST_REGION_API GType gst_region_labels_meta_api_get_type(void);
+GST_REGION_API GType gst_region_graph_meta_api_get_type(void);
+GST_REGION_API GType gst_region_motion_meta_api_get_type(void);
+GST_REGION_API GType gst_region_objects_meta_api_get_type(void);
+
+/**
+ * gst_buffer_get_region_foreground_meta:
+ * @buffer: a buffer that passed bgremove
+ *
+ * Returns: (transfer none) (nullable): what bgremove says of it
+ */
+GST_REGION_API GstRegionForegroundMeta* gst_buffer_get_region_foreground_meta(GstBuffer* buffer);
+/**
+ * gst_buffer_get_region_labels_meta:
+ * @buffer: a buffer that passed hsvsegment
+ *
+ * Returns: (transfer none) (nullable): what hsvsegment says of it
+ */
+GST_REGION_API GstRegionLabelsMeta* gst_buffer_get_region_labels_meta(GstBuffer* buffer);
+/**
+ * gst_buffer_get_region_graph_meta:
+ * @buffer: a buffer that passed srg
+ *
+ * Returns: (transfer none) (nullable): what srg says of it
+ */
+GST_REGION_API GstRegionGraphMeta* gst_buffer_get_region_graph_meta(GstBuffer* buffer);
+/**
+ * gst_buffer_get_region_motion_meta:
+ * @buffer: a buffer that passed prmmotion
+ *
+ * Returns: (transfer none) (nullable): what prmmotion says of it
+ */
+GST_REGION_API GstRegionMotionMeta* gst_buffer_get_region_motion_meta(GstBuffer* buffer);
+/**
+ * gst_buffer_get_region_objects_meta:
+ * @buffer: a buffer that passed mrfmerge
+ *
+ * Returns: (transfer none) (nullable): what mrfmerge says of it
+ */
+GST_REGION_API GstRegionObjectsMeta* gst_buffer_get_region_objects_meta(GstBuffer* buffer);
+
+/**
+ * gst_region_foreground_meta_get_status:
+ * @meta: a foreground meta
+ * @width: (out) (optional): width of the analysed frame
+ * @height: (out) (optional): height of the analysed frame
+ *
+ * Returns: how far the result can be relied on
+ */
+GST_REGION_API GstRegionStatus gst_region_foreground_meta_get_status(GstRegionForegroundMeta* meta,
+                                                                     gint* width, gint* height);
+/**
+ * gst_region_foreground_meta_get_n_areas:
+ * @meta: a foreground meta
+ *
+ * Returns: how many connected parts the foreground has
+ */
+GST_REGION_API guint gst_region_foreground_meta_get_n_areas(GstRegionForegroundMeta* meta);
+/**
+ * gst_region_foreground_meta_get_area:
+ * @meta: a foreground meta
+ * @index: 0 to the number of areas - 1
+ * @box: (out caller-allocates): bounding box of one connected part
+ *
+ * Returns: FALSE when @index is out of range
+ */
+GST_REGION_API gboolean gst_region_foreground_meta_get_area(GstRegionForegroundMeta* meta,
+                                                            guint index, GstRegionBox* box);
+/**
+ * gst_region_foreground_meta_map:
+ * @meta: a foreground meta
+ * @plane: (out caller-allocates): 8 bits a pixel: 0 background, 128 shadow, 255 foreground
+ * @error: why it failed
+ *
+ * Returns: FALSE when there is no mask (status skipped)
+ */
+GST_REGION_API gboolean gst_region_foreground_meta_map(GstRegionForegroundMeta* meta,
+                                                       GstRegionPlane* plane, GError** error);
+
+/**
+ * gst_region_labels_meta_get_status:
+ * @meta: a labels meta
+ * @width: (out) (optional): width of the analysed frame
+ * @height: (out) (optional): height of the analysed frame
+ *
+ * Returns: how far the result can be relied on
+ */
+GST_REGION_API GstRegionStatus gst_region_labels_meta_get_status(GstRegionLabelsMeta* meta,
+                                                                 gint* width, gint* height);
+/**
+ * gst_region_labels_meta_get_scope:
+ * @meta: a labels meta
+ *
+ * Returns: which pixels have a region
+ */
+GST_REGION_API GstRegionScope gst_region_labels_meta_get_scope(GstRegionLabelsMeta* meta);
+/**
+ * gst_region_labels_meta_get_n_regions:
+ * @meta: a labels meta
+ *
+ * Returns: how many regions there are; their labels are 1 to this number
+ */
+GST_REGION_API guint gst_region_labels_meta_get_n_regions(GstRegionLabelsMeta* meta);
+/**
+ * gst_region_labels_meta_map:
+ * @meta: a labels meta
+ * @plane: (out caller-allocates): 16 bits a pixel: its region's label, 0 = none
+ * @error: why it failed
+ *
+ * Returns: FALSE when there are no labels (status skipped)
+ */
+GST_REGION_API gboolean gst_region_labels_meta_map(GstRegionLabelsMeta* meta, GstRegionPlane* plane,
+                                                   GError** error);
+
+/**
+ * gst_region_graph_meta_get_status:
+ * @meta: a graph meta
+ * @width: (out) (optional): width of the analysed frame
+ * @height: (out) (optional): height of the analysed frame
+ *
+ * Returns: how far the result can be relied on
+ */
+GST_REGION_API GstRegionStatus gst_region_graph_meta_get_status(GstRegionGraphMeta* meta,
+                                                                gint* width, gint* height);
+/**
+ * gst_region_graph_meta_get_n_regions:
+ * @meta: a graph meta
+ *
+ * Returns: how many regions there are
+ */
+GST_REGION_API guint gst_region_graph_meta_get_n_regions(GstRegionGraphMeta* meta);
+/**
+ * gst_region_graph_meta_get_region:
+ * @meta: a graph meta
+ * @index: 0 to the number of regions - 1: the region with label @index + 1
+ * @region: (out caller-allocates): its attributes
+ *
+ * Returns: FALSE when @index is out of range
+ */
+GST_REGION_API gboolean gst_region_graph_meta_get_region(GstRegionGraphMeta* meta, guint index,
+                                                         GstRegion* region);
+/**
+ * gst_region_graph_meta_get_n_arcs:
+ * @meta: a graph meta
+ *
+ * Returns: how many pairs of regions touch
+ */
+GST_REGION_API guint gst_region_graph_meta_get_n_arcs(GstRegionGraphMeta* meta);
+/**
+ * gst_region_graph_meta_get_arc:
+ * @meta: a graph meta
+ * @index: 0 to the number of arcs - 1, sorted by the labels
+ * @arc: (out caller-allocates): its attributes
+ *
+ * Returns: FALSE when @index is out of range
+ */
+GST_REGION_API gboolean gst_region_graph_meta_get_arc(GstRegionGraphMeta* meta, guint index,
+                                                      GstRegionArc* arc);
+
+/**
+ * gst_region_motion_meta_get_status:
+ * @meta: a motion meta
+ * @width: (out) (optional): width of the analysed frame
+ * @height: (out) (optional): height of the analysed frame
+ *
+ * Returns: how far the result can be relied on; skipped where there is no previous frame
+ */
+GST_REGION_API GstRegionStatus gst_region_motion_meta_get_status(GstRegionMotionMeta* meta,
+                                                                 gint* width, gint* height);
+/**
+ * gst_region_motion_meta_get_n_regions:
+ * @meta: a motion meta
+ *
+ * Returns: how many regions there are
+ */
+GST_REGION_API guint gst_region_motion_meta_get_n_regions(GstRegionMotionMeta* meta);
+/**
+ * gst_region_motion_meta_get_vector:
+ * @meta: a motion meta
+ * @index: 0 to the number of regions - 1: the region with label @index + 1
+ * @vector: (out caller-allocates): how it moved
+ *
+ * Returns: FALSE when @index is out of range
+ */
+GST_REGION_API gboolean gst_region_motion_meta_get_vector(GstRegionMotionMeta* meta, guint index,
+                                                          GstRegionVector* vector);
+
+/**
+ * gst_region_objects_meta_get_status:
+ * @meta: an objects meta
+ * @width: (out) (optional): width of the analysed frame
+ * @height: (out) (optional): height of the analysed frame
+ *
+ * Returns: how far the result can be relied on
+ */
+GST_REGION_API GstRegionStatus gst_region_objects_meta_get_status(GstRegionObjectsMeta* meta,
+                                                                  gint* width, gint* height);
+/**
+ * gst_region_objects_meta_get_n_objects:
+ * @meta: an objects meta
+ *
+ * Returns: how many objects there are
+ */
+GST_REGION_API guint gst_region_objects_meta_get_n_objects(GstRegionObjectsMeta* meta);
+/**
+ * gst_region_objects_meta_get_object:
+ * @meta: an objects meta
+ * @index: 0 to the number of objects - 1, sorted by id
+ * @object: (out caller-allocates): what is known of it
+ *
+ * Returns: FALSE when @index is out of range
+ */
+GST_REGION_API gboolean gst_region_objects_meta_get_object(GstRegionObjectsMeta* meta, guint index,
+                                                           GstRegionObject* object);
+/**
+ * gst_region_objects_meta_get_parent:
+ * @meta: an objects meta
+ * @index: 0 to the number of objects - 1
+ * @parent: 0 to the object's n_parents - 1
+ *
+ * Returns: the id of an object that it came from, 0 when an index is out of range
+ */
+GST_REGION_API guint64 gst_region_objects_meta_get_parent(GstRegionObjectsMeta* meta, guint index,
+                                                          guint parent);
+/**
+ * gst_region_objects_meta_get_contour_point:
+ * @meta: an objects meta
+ * @index: 0 to the number of objects - 1
+ * @point: 0 to the object's n_contour - 1, clockwise
+ * @x: (out): column
+ * @y: (out): row
+ *
+ * Returns: FALSE when an index is out of range
+ */
+GST_REGION_API gboolean gst_region_objects_meta_get_contour_point(GstRegionObjectsMeta* meta,
+                                                                  guint index, guint point, gint* x,
+                                                                  gint* y);
+/**
+ * gst_region_objects_meta_get_region_object:
+ * @meta: an objects meta
+ * @region: a label, from 1
+ *
+ * Returns: the id of the object that the region belongs to, 0 = none
+ */
+GST_REGION_API guint64 gst_region_objects_meta_get_region_object(GstRegionObjectsMeta* meta,
+                                                                 guint region);
+/**
+ * gst_region_objects_meta_get_camera_motion:
+ * @meta: an objects meta
+ * @dx: (out): pixels that the background moved to the right since the previous frame
+ * @dy: (out): pixels that the background moved downwards
+ */
+GST_REGION_API void gst_region_objects_meta_get_camera_motion(GstRegionObjectsMeta* meta,
+                                                              gdouble* dx, gdouble* dy);
+/**
+ * gst_region_objects_meta_map:
+ * @meta: an objects meta
+ * @plane: (out caller-allocates): 16 bits a pixel: 1 + index of its object, 0 = none
+ * @error: why it failed
+ *
+ * Returns: FALSE when there are no objects (status skipped)
+ */
+GST_REGION_API gboolean gst_region_objects_meta_map(GstRegionObjectsMeta* meta,
+                                                    GstRegionPlane* plane, GError** error);
+
+/**
+ * gst_region_plane_unmap:
+ * @plane: what a map function filled in
+ *
+ * Ends the use of a plane. Does nothing for a plane that is not mapped.
+ */
+GST_REGION_API void gst_region_plane_unmap(GstRegionPlane* plane);
+
+G_END_DECLS
+
+#endif

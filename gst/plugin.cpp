@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "gst/elements.hpp"
+
+#include <gst/gst.h>
+
+static gboolean pluginInit(GstPlugin* plugin) {
+  gboolean isComplete = TRUE;
+  isComplete &= GST_ELEMENT_REGISTER(bgremove, plugin);
+  isComplete &= GST_ELEMENT_REGISTER(hsvsegment, plugin);
+  isComplete &= GST_ELEMENT_REGISTER(srg, plugin);
+  isComplete &= GST_ELEMENT_REGISTER(prmmotion, plugin);
+  isComplete &= GST_ELEMENT_REGISTER(mrfmerge, plugin);
+  return isComplete;
+}
+
+GST_PLUGIN_DEFINE(GST_VERSION_MAJOR, GST_VERSION_MINOR, regiongraph,
+                  "Finds, follows and describes what moves in surveillance video", pluginInit,
+                  REGIONGRAPH_VERSION, "LGPL", "gst-regiongraph",
+                  "https://gstreamer.freedesktop.org")

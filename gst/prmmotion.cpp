@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+/**
+ * SECTION:element-prmmotion
+ * @title: prmmotion
+ *
+ * Finds by how much each region moved since the previous frame: partitioned region matching, by the
+ * sum of absolute differences over every shift within max-shift.
+ *
+ * |[
+ * gst-launch-1.0 filesrc location=clip.avi ! decodebin ! videoconvert ! hsvsegment ! srg !
+ *   prmmotion max-shift=32 ! regionwrite format=regions location=regions.csv ! fakesink
+ * ]|
+ */
+#include "core/region_motion.hpp"
+#include "gst/elements.hpp"
+#include "gst/support/stage_filter.hpp"
+
+#include <array>
+
+namespace rg {
+namespace {
+
+struct Settings : StageSettings, MotionParams {};
+
+constexpr std::array kProperties{
+    property<Settings, &Settings::maxShiftPx>(
+        "max-shift",
+        "Largest motion between two frames that is searched, in pixels along each axis. The time "
+        "taken grows with its square",
+        1, 64),
+    property<Settings, &Settings::isSubpixel>(
+        "subpixel", "Refine vectors to 1/16 pixel; otherwise they are whole pixels"),
+    threadsProperty<Settings>(),
+};
+
+class PrmMotion final : public ChainedFilter<Settings, MotionStage, Graph> {
+ public:
+  explicit PrmMotion(GstBaseTransform* element) : ChainedFilter(element, makeMotionStage, "srg") {}
+
+ private:
+  void handle(const FilterFrame& frame, std::shared_ptr<const Graph> graph,
+              const Settings& settings) override {
+    if (graph)
+      attach<Motion>(frame, stage().process(std::move(graph), settings));
+    else
+      attachSkipped<Motion>(frame);
+  }
+};
+
+const Settings kDefaults;
+const FilterDescription kDescription{
+    .elementName = "prmmotion",
+    .typeName = "GstRegionPrmMotion",
+    .longName = "Region motion",
+    .klass = "Filter/Analyzer/Video",
+    .description = "Finds each region's motion and its reliability, in a meta on each buffer",
+    .caps = kMetaCaps,
+    .properties = kProperties,
+    .defaults = &kDefaults,
+    .create = [](GstBaseTransform* element) -> Filter* { return new PrmMotion(element); },
+};
+
+}  // namespace
+}  // namespace rg
+
+GType gst_region_prmmotion_get_type() {
+  static const GType type = rg::registerFilter(rg::kDescription);
+  return type;
+}
+GST_ELEMENT_REGISTER_DEFINE(prmmotion, "prmmotion", GST_RANK_NONE, gst_region_prmmotion_get_type())

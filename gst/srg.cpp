@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+/**
+ * SECTION:element-srg
+ * @title: srg
+ *
+ * Makes the spatial region graph of hsvsegment's regions: a node for each region with its area,
+ * box, centroid and colour, an arc for each pair that touches.
+ *
+ * |[
+ * gst-launch-1.0 filesrc location=clip.avi ! decodebin ! videoconvert ! bgremove ! hsvsegment ! srg
+ * ! prmmotion ! mrfmerge ! regionoverlay ! videoconvert ! autovideosink
+ * ]|
+ */
+#include "core/region_graph.hpp"
+#include "gst/elements.hpp"
+#include "gst/support/stage_filter.hpp"
+
+#include <array>
+
+namespace rg {
+namespace {
+
+GType connectivityType() {
+  static const GEnumValue values[] = {
+      {static_cast<int>(Connectivity::Four), "Regions touch along the sides of pixels", "4"},
+      {static_cast<int>(Connectivity::Eight), "Regions touch also at the corners of pixels", "8"},
+      {0, nullptr, nullptr}};
+  static const GType type = registerEnum("GstRegionConnectivity", values);
+  return type;
+}
+
+struct Settings : StageSettings, GraphParams {};
+
+constexpr std::array kProperties{
+    enumProperty<Settings, &Settings::connectivity>(
+        "connectivity", "Which pixels count as neighbours across a border", connectivityType),
+    threadsProperty<Settings>(),
+};
+
+class Srg final : public ChainedFilter<Settings, GraphStage, Labels> {
+ public:
+  explicit Srg(GstBaseTransform* element) : ChainedFilter(element, makeGraphStage, "hsvsegment") {}
+
+ private:
+  void handle(const FilterFrame& frame, std::shared_ptr<const Labels> labels,
+              const Settings& settings) override {
+    if (labels)
+      attach<Graph>(frame, stage().process(std::move(labels), settings));
+    else
+      attachSkipped<Graph>(frame);
+  }
+};
+
+const Settings kDefaults;
+const FilterDescription kDescription{
+    .elementName = "srg",
+    .typeName = "GstRegionSrg",
+    .longName = "Spatial region graph",
+    .klass = "Filter/Analyzer/Video",
+    .description = "Describes regions and which of them touch, in a meta on each buffer",
+    .caps = kMetaCaps,
+    .properties = kProperties,
+    .defaults = &kDefaults,
+    .create = [](GstBaseTransform* element) -> Filter* { return new Srg(element); },
+};
+
+}  // namespace
+}  // namespace rg
+
+GType gst_region_srg_get_type() {
+  static const GType type = rg::registerFilter(rg::kDescription);
+  return type;
+}
+GST_ELEMENT_REGISTER_DEFINE(srg, "srg", GST_RANK_NONE, gst_region_srg_get_type())

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The shell that all in-place elements share: a GstBaseTransform that owns a C++ object, turns its
+// exceptions into errors on the bus, and tells it about frames, times and resets.
+#pragma once
+
+#include "core/stage.hpp"
+#include "gst/support/properties.hpp"
+#include "gst/support/stream_clock.hpp"
+
+#include <gst/base/gstbasetransform.h>
+#include <gst/video/video.h>
+
+#include <mutex>
+#include <span>
+#include <string>
+
+namespace rg {
+
+class Filter;
+
+/// Everything about an element's type that is not behaviour.
+struct FilterDescription {
+  const char* elementName;  ///< As in gst-launch; also its debug category.
+  const char* typeName;
+  const char* longName;
+  const char* klass;
+  const char* description;
+  const char* caps;  ///< Of both pads.
+  std::span<const Property> properties;
+  const void* defaults;  ///< A fresh struct of settings.
+  Filter* (*create)(GstBaseTransform* element);
+};
+
+/// The formats whose pixels the elements read, in system memory, up to 16384 pixels a side.
+extern const char* const kPixelCaps;
+/// Any raw video in any memory, for elements that read metas only.
+extern const char* const kMetaCaps;
+
+/// Registers the element's type; for use in a function-local static.
+GType registerFilter(const FilterDescription& description);
+
+/// One frame on its way through an element.
+struct FilterFrame {
+  GstBuffer* buffer;         ///< Metas may be added, pixels are shared.
+  const GstVideoInfo& info;  ///< Of the negotiated caps.
+  FrameTime time;
+  bool isFirst;   ///< First since the caps: what is missing here was never there.
+  bool isUsable;  ///< False for GAP and CORRUPTED buffers: to be skipped, nothing to be learnt.
+};
+
+/// Base of the C++ objects behind the elements. All but the properties runs on the streaming
+/// thread.
+class Filter {
+ public:
+  explicit Filter(GstBaseTransform* element) : element_(element) {}
+  virtual ~Filter() = default;
+  Filter(const Filter&) = delete;
+  Filter& operator=(const Filter&) = delete;
+
+  /// The struct that the properties' table describes; guarded by settingsMutex().
+  virtual void* settings() = 0;
+  /// False after an error was posted.
+  virtual bool start() { return true; }
+  virtual void stop() {}
+  virtual void reset(Reset what) { (void)what; }
+  virtual void endOfStream() {}
+  virtual GstFlowReturn process(const FilterFrame& frame) = 0;
+
+  [[nodiscard]] std::mutex& settingsMutex() { return settingsMutex_; }
+  [[nodiscard]] GstBaseTransform* element() const { return element_; }
+  [[nodiscard]] GstDebugCategory* category() const;
+
+ protected:
+  /// A copy of the settings as they are now.
+  template <class Settings>
+  [[nodiscard]] Settings snapshot(const Settings& settings) {
+    const std::lock_guard lock(settingsMutex_);
+    return settings;
+  }
+  void postWarning(const std::string& text) const;
+  /// Posts that the stream can't be processed, with the remedy.
+  GstFlowReturn postError(const std::string& text) const;
+
+ private:
+  friend struct FilterShell;
+
+  GstBaseTransform* const element_;
+  std::mutex settingsMutex_;  ///< Protects the settings; held for a copy, never while calling out.
+  GstVideoInfo info_{};
+  bool hasCaps_ = false;
+  bool isFirst_ = true;
+  std::string streamId_;
+  StreamClock clock_;
+};
+
+}  // namespace rg

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The pixels of a buffer, mapped for reading and checked.
+#pragma once
+
+#include "core/frame.hpp"
+#include "core/result.hpp"
+
+#include <gst/video/video.h>
+
+#include <optional>
+
+namespace rg {
+
+/// The layout that caps describe; none for formats that the stages don't read.
+[[nodiscard]] std::optional<FrameLayout> layoutOf(const GstVideoInfo& info);
+
+/// Maps a buffer for as long as it lives. A GstVideoMeta is believed only as far as the memory
+/// goes: frame() is an error where it points outside, or contradicts the caps.
+class MappedFrame {
+ public:
+  MappedFrame(GstBuffer* buffer, const GstVideoInfo& info);
+  ~MappedFrame();
+  MappedFrame(const MappedFrame&) = delete;
+  MappedFrame& operator=(const MappedFrame&) = delete;
+
+  [[nodiscard]] const Result<Frame>& frame() const { return frame_; }
+
+ private:
+  [[nodiscard]] Result<Frame> check(const GstVideoInfo& info) const;
+
+  GstBuffer* buffer_;
+  GstMapInfo map_;
+  bool isMapped_;
+  Result<Frame> frame_;
+};
+
+}  // namespace rg

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "gst/support/object_messages.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace rg {
+namespace {
+
+/// The background counts as moving from half a pixel a frame, and as still again below a quarter.
+constexpr int kMovingFrom = kMotionUnit / 2;
+constexpr int kStillBelow = kMotionUnit / 4;
+
+}  // namespace
+
+void ObjectMessages::tell(const Objects& objects, GstClockTime pts) {
+  pts_ = pts;
+  for (const Event& event : objects.events) {
+    switch (event.kind) {
+      case EventKind::ObjectNew:
+        for (const uint64_t id : event.ids)
+          if (alive_.insert(id).second) tellObject("regiongraph-object-new", id);
+        break;
+      case EventKind::ObjectEnd:
+        for (const uint64_t id : event.ids)
+          if (alive_.erase(id) != 0) tellObject("regiongraph-object-end", id);
+        break;
+      case EventKind::Merge:
+        tellGroup("regiongraph-merge", event);
+        break;
+      case EventKind::Split:
+        tellGroup("regiongraph-split", event);
+        break;
+      case EventKind::SceneChanged:
+        post("regiongraph-scene-changed", gst_structure_new_empty("regiongraph-scene-changed"));
+        break;
+    }
+  }
+  if (objects.status == Status::Ok) tellCamera(objects);
+}
+
+void ObjectMessages::endAll() {
+  for (const uint64_t id : alive_) tellObject("regiongraph-object-end", id);
+  alive_.clear();
+}
+
+void ObjectMessages::post(const char* name, GstStructure* fields) const {
+  GST_DEBUG_OBJECT(element_, "%s", name);
+  const GstSegment* segment = &element_->segment;
+  const bool hasTimes = segment->format == GST_FORMAT_TIME && GST_CLOCK_TIME_IS_VALID(pts_);
+  const guint64 streamTime =
+      hasTimes ? gst_segment_to_stream_time(segment, GST_FORMAT_TIME, pts_) : GST_CLOCK_TIME_NONE;
+  const guint64 runningTime =
+      hasTimes ? gst_segment_to_running_time(segment, GST_FORMAT_TIME, pts_) : GST_CLOCK_TIME_NONE;
+  gst_structure_set(fields, "pts", G_TYPE_UINT64, static_cast<guint64>(pts_), "stream-time",
+                    G_TYPE_UINT64, streamTime, "running-time", G_TYPE_UINT64, runningTime, nullptr);
+  gst_element_post_message(GST_ELEMENT(element_),
+                           gst_message_new_element(GST_OBJECT(element_), fields));
+}
+
+void ObjectMessages::tellObject(const char* name, uint64_t id) const {
+  post(name, gst_structure_new(name, "id", G_TYPE_UINT64, static_cast<guint64>(id), nullptr));
+}
+
+void ObjectMessages::tellGroup(const char* name, const Event& event) const {
+  GValue ids = G_VALUE_INIT;
+  g_value_init(&ids, GST_TYPE_ARRAY);
+  for (const uint64_t id : event.ids) {
+    GValue value = G_VALUE_INIT;
+    g_value_init(&value, G_TYPE_UINT64);
+    g_value_set_uint64(&value, id);
+    gst_value_array_append_and_take_value(&ids, &value);
+  }
+  GstStructure* fields = gst_structure_new_empty(name);
+  gst_structure_take_value(fields, "ids", &ids);
+  post(name, fields);
+}
+
+void ObjectMessages::tellCamera(const Objects& objects) {
+  const int speed = std::max(std::abs(objects.cameraDx), std::abs(objects.cameraDy));
+  const bool isMoving = isCameraMoving_ ? speed >= kStillBelow : speed >= kMovingFrom;
+  if (isMoving == isCameraMoving_) return;
+  isCameraMoving_ = isMoving;
+  constexpr double kUnit = kMotionUnit;
+  constexpr const char* kName = "regiongraph-background-motion";
+  post(kName, gst_structure_new(kName, "moving", G_TYPE_BOOLEAN, isMoving, "dx", G_TYPE_DOUBLE,
+                                objects.cameraDx / kUnit, "dy", G_TYPE_DOUBLE,
+                                objects.cameraDy / kUnit, nullptr));
+}
+
+}  // namespace rg

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// What happens to objects, told on the bus.
+#pragma once
+
+#include "core/objects.hpp"
+
+#include <gst/base/gstbasetransform.h>
+
+#include <cstdint>
+#include <set>
+
+namespace rg {
+
+/// Posts element messages in the name of an element; see mrfmerge for their names and fields.
+class ObjectMessages {
+ public:
+  explicit ObjectMessages(GstBaseTransform* element) : element_(element) {}
+
+  /// Tells the events of one frame.
+  void tell(const Objects& objects, GstClockTime pts);
+  /// Tells the end of every object that was told to exist, as of the last frame.
+  void endAll();
+
+ private:
+  void post(const char* name, GstStructure* fields) const;
+  void tellObject(const char* name, uint64_t id) const;
+  void tellGroup(const char* name, const Event& event) const;
+  void tellCamera(const Objects& objects);
+
+  GstBaseTransform* const element_;
+  GstClockTime pts_ = GST_CLOCK_TIME_NONE;
+  std::set<uint64_t> alive_;
+  bool isCameraMoving_ = false;
+};
+
+}  // namespace rg

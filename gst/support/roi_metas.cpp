@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "gst/support/roi_metas.hpp"
+
+#include <gst/video/gstvideometa.h>
+
+namespace rg {
+namespace {
+
+bool isPresent(ObjectState state) {
+  return state == ObjectState::Tracked || state == ObjectState::Stopped ||
+         state == ObjectState::Occluded;
+}
+
+void addParams(GstVideoRegionOfInterestMeta* roi, const Object& object, const Box& box, Size size) {
+  const double width = size.width, height = size.height;
+  gst_video_region_of_interest_meta_add_param(
+      roi,
+      gst_structure_new("detection", "x_min", G_TYPE_DOUBLE, box.x / width, "x_max", G_TYPE_DOUBLE,
+                        box.right() / width, "y_min", G_TYPE_DOUBLE, box.y / height, "y_max",
+                        G_TYPE_DOUBLE, box.bottom() / height, "confidence", G_TYPE_DOUBLE, 1.0,
+                        "label_id", G_TYPE_INT, 0, "label", G_TYPE_STRING, "object", nullptr));
+  gst_video_region_of_interest_meta_add_param(
+      roi, gst_structure_new("object_id", "id", G_TYPE_INT, static_cast<int>(object.id), nullptr));
+}
+
+}  // namespace
+
+void addRoiMetas(GstBuffer* buffer, const GstVideoInfo& info, const Objects& objects) {
+  const Size frame{GST_VIDEO_INFO_WIDTH(&info), GST_VIDEO_INFO_HEIGHT(&info)};
+  for (const Object& object : objects.objects) {
+    const Box box = intersect(mapBox(object.box, objects.size, frame), boundsOf(frame));
+    if (!isPresent(object.state) || box.isEmpty()) continue;
+    auto* roi = gst_buffer_add_video_region_of_interest_meta(
+        buffer, "object", static_cast<guint>(box.x), static_cast<guint>(box.y),
+        static_cast<guint>(box.width), static_cast<guint>(box.height));
+    roi->id = static_cast<gint>(object.id);
+    if (!object.parents.empty()) roi->parent_id = static_cast<gint>(object.parents.front());
+    addParams(roi, object, box, frame);
+  }
+}
+
+}  // namespace rg
