@@ -4,8 +4,8 @@
 
 usage: symbols.py PLUGIN LIBRARY HEADER...
 
-PLUGIN exports gst_plugin_* and nothing else. LIBRARY exports the functions that the public HEADERs
-declare, each of them named gst_*region*, and nothing else. Exits 1 when that is not so.
+PLUGIN exports gst_plugin_* and nothing else. LIBRARY exports the functions that the HEADERs declare
+for applications and for the plugin, each named gst_*region*, and nothing else. Exits 1 otherwise.
 """
 import pathlib
 import re
@@ -22,13 +22,12 @@ def exported(library):
 
 
 def declared(headers):
-    """Functions that the headers declare: a name before a parenthesis, outside of comments."""
+    """Functions that the headers declare with GST_REGION_API."""
     names = set()
     for header in headers:
         text = pathlib.Path(header).read_text(encoding='utf-8')
         text = re.sub(r'/\*.*?\*/|//[^\n]*', '', text, flags=re.DOTALL)
-        text = re.sub(r'^\s*#(?:[^\n]*\\\n)*[^\n]*', '', text, flags=re.MULTILINE)
-        names |= set(re.findall(r'\b(gst_[a-z0-9_]+)\s*\(', text))
+        names |= set(re.findall(r'\bGST_REGION_API\b[^;#]*?\b(\w+)\s*\(', text))
     return names
 
 
@@ -40,9 +39,9 @@ def main():
     findings = [f'{sys.argv[1]}: exports {name}'
                 for name in sorted(plugin) if not name.startswith('gst_plugin_')]
     findings += [] if plugin else [f'{sys.argv[1]}: exports nothing']
-    findings += [f'{sys.argv[2]}: exports {name}, which no public header declares'
+    findings += [f'{sys.argv[2]}: exports {name}, which no header declares'
                  for name in sorted(library - public)]
-    findings += [f'{sys.argv[2]}: does not export {name}, which a public header declares'
+    findings += [f'{sys.argv[2]}: does not export {name}, which a header declares'
                  for name in sorted(public - library)]
     findings += [f'{sys.argv[2]}: exports {name}, which is not named gst_*region*'
                  for name in sorted(library) if not re.match(r'gst_.*region', name)]
