@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "core/absorption.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace rg {
+namespace {
+
+constexpr uint64_t kNoChoice = ~uint64_t{0};
+constexpr uint32_t kUnseen = ~uint32_t{0};
+constexpr uint32_t kLimitGrowth = 4;
+constexpr int kMeanFractionBits = 4;
+
+}  // namespace
+
+void Absorption::run(const AbsorptionLimits& limits) {
+  forest_.resize(regions_.size());
+  std::iota(forest_.begin(), forest_.end(), 0u);
+  for (uint32_t i = 0; i < regions_.size(); ++i) regions_[i].representative = i;
+  compactBorders();
+
+  for (uint32_t area = 1; area < limits.minAreaPx;) {
+    area = std::min(area * kLimitGrowth, limits.minAreaPx);
+    do chooseAllBelow(area);
+    while (mergeRound() > 0);
+  }
+  while (regions_.size() > limits.maxRegions) {
+    chooseSmallest(static_cast<uint32_t>(regions_.size()) - limits.maxRegions);
+    if (mergeRound() == 0) break;
+  }
+}
+
+uint32_t Absorption::representative(uint32_t i) {
+  while (forest_[i] != i) i = forest_[i] = forest_[forest_[i]];
+  return i;
+}
+
+void Absorption::chooseAllBelow(uint32_t areaPx) {
+  chooses_.resize(regions_.size());
+  for (size_t i = 0; i < regions_.size(); ++i) chooses_[i] = regions_[i].areaPx < areaPx;
+}
+
+// Of regions with a neighbour only: the others can't merge and would use up the count.
+void Absorption::chooseSmallest(uint32_t count) {
+  chooses_.assign(regions_.size(), 0);
+  for (const AbsorbedBorder& border : borders_) chooses_[border.a] = chooses_[border.b] = 1;
+  order_.clear();
+  for (uint32_t i = 0; i < regions_.size(); ++i)
+    if (chooses_[i] != 0) order_.push_back(uint64_t{regions_[i].areaPx} << 32 | i);
+  if (order_.size() <= count) return;
+  std::nth_element(order_.begin(), order_.begin() + count, order_.end());
+  for (size_t i = count; i < order_.size(); ++i) chooses_[static_cast<uint32_t>(order_[i])] = 0;
+}
+
+/// Returns how many regions vanished.
+uint64_t Absorption::mergeRound() {
+  const size_t before = regions_.size();
+  findMeans();
+  findBest();
+  if (std::all_of(best_.begin(), best_.end(), [](uint64_t key) { return key == kNoChoice; }))
+    return 0;
+  contract();
+  compactBorders();
+  return before - regions_.size();
+}
+
+void Absorption::findMeans() {
+  means_.resize(regions_.size());
+  for (size_t i = 0; i < regions_.size(); ++i) {
+    const AbsorbedRegion& region = regions_[i];
+    const auto mean = [&](uint64_t sum) {
+      return static_cast<int32_t>((sum << kMeanFractionBits) / region.areaPx);
+    };
+    means_[i] = {mean(region.red), mean(region.green), mean(region.blue)};
+  }
+}
+
+/// Below 3 · (255 · 16)² < 2^26.
+uint64_t Absorption::distance(const AbsorbedBorder& border) const {
+  const Mean& a = means_[border.a];
+  const Mean& b = means_[border.b];
+  const int64_t red = a.red - b.red, green = a.green - b.green, blue = a.blue - b.blue;
+  return static_cast<uint64_t>(red * red + green * green + blue * blue);
+}
+
+void Absorption::findBest() {
+  best_.assign(regions_.size(), kNoChoice);
+  for (const AbsorbedBorder& border : borders_) {
+    const bool asks = chooses_[border.a] != 0, answers = chooses_[border.b] != 0;
+    if (!asks && !answers) continue;
+    const uint64_t key = distance(border) << 32;
+    if (asks) best_[border.a] = std::min(best_[border.a], key | border.b);
+    if (answers) best_[border.b] = std::min(best_[border.b], key | border.a);
+  }
+}
+
+// The choices form trees, but for pairs that chose each other: there the smaller number is the
+// root. Longer cycles can't be, since distances are symmetric and ties go to the smaller number.
+void Absorption::contract() {
+  const auto count = static_cast<uint32_t>(regions_.size());
+  parents_.resize(count);
+  const auto chosen = [&](uint32_t i) {
+    return best_[i] == kNoChoice ? i : static_cast<uint32_t>(best_[i]);
+  };
+  for (uint32_t i = 0; i < count; ++i) {
+    const uint32_t to = chosen(i);
+    parents_[i] = chosen(to) == i && i < to ? i : to;
+  }
+  const auto root = [&](uint32_t i) {
+    while (parents_[i] != i) i = parents_[i] = parents_[parents_[i]];
+    return i;
+  };
+  for (uint32_t i = 0; i < count; ++i) {
+    const uint32_t r = root(i);
+    if (r == i) continue;
+    regions_[r].red += regions_[i].red;
+    regions_[r].green += regions_[i].green;
+    regions_[r].blue += regions_[i].blue;
+    regions_[r].areaPx += regions_[i].areaPx;
+    forest_[regions_[i].representative] = regions_[r].representative;
+  }
+  seenAt_.resize(count);
+  uint32_t kept = 0;
+  for (uint32_t i = 0; i < count; ++i)
+    if (parents_[i] == i) seenAt_[i] = kept++;
+  for (AbsorbedBorder& border : borders_) {
+    border.a = seenAt_[root(border.a)];
+    border.b = seenAt_[root(border.b)];
+  }
+  for (uint32_t i = 0; i < count; ++i)
+    if (parents_[i] == i) regions_[seenAt_[i]] = regions_[i];
+  regions_.resize(kept);
+}
+
+// Sorts by the smaller number with one count, then joins equal pairs by remembering where the
+// larger number was last seen.
+void Absorption::compactBorders() {
+  starts_.assign(regions_.size() + 1, 0);
+  for (AbsorbedBorder& border : borders_) {
+    if (border.a > border.b) std::swap(border.a, border.b);
+    if (border.a != border.b) ++starts_[border.a + 1];
+  }
+  std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
+  sorted_.resize(starts_.back());
+  for (const AbsorbedBorder& border : borders_)
+    if (border.a != border.b) sorted_[starts_[border.a]++] = border;
+
+  seenAt_.assign(regions_.size(), kUnseen);
+  borders_.clear();
+  size_t firstOfA = 0;
+  uint32_t a = kUnseen;
+  for (const AbsorbedBorder& border : sorted_) {
+    if (border.a != a) {
+      a = border.a;
+      firstOfA = borders_.size();
+    }
+    uint32_t& at = seenAt_[border.b];
+    if (at != kUnseen && at >= firstOfA) {
+      borders_[at].borderPx += border.borderPx;
+      borders_[at].contrast += border.contrast;
+    } else {
+      at = static_cast<uint32_t>(borders_.size());
+      borders_.push_back(border);
+    }
+  }
+}
+
+}  // namespace rg

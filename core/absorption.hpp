@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Merging of small regions into the neighbour most like them (part of stage 2).
+//
+// In each round every region below a limit chooses the neighbour of least key (colour distance of
+// the means, id); chosen pairs merge all at once, then means and borders are computed anew. The
+// limit grows from round to round, so that small ones find a home before they tear others along.
+// Determinism: choices depend on the state before the round only; sums commute.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace rg {
+
+struct AbsorbedRegion {
+  uint64_t red = 0, green = 0, blue = 0;  ///< Sums over its pixels.
+  uint32_t areaPx = 0;
+  uint32_t representative = 0;  ///< The initial region that stands for it.
+};
+
+/// Two neighbours: pixel pairs across their border, and the sum of those pairs' distances.
+struct AbsorbedBorder {
+  uint32_t a = 0;
+  uint32_t b = 0;
+  uint32_t borderPx = 0;
+  uint32_t contrast = 0;
+};
+
+struct AbsorptionLimits {
+  uint32_t minAreaPx = 1;
+  uint32_t maxRegions = 1024;
+};
+
+class Absorption {
+ public:
+  /// To be filled before run(): one entry an initial region, in order; borders in any order, more
+  /// than one a pair if need be.
+  std::vector<AbsorbedRegion>& regions() { return regions_; }
+  std::vector<AbsorbedBorder>& borders() { return borders_; }
+
+  /// Merges until no region with a neighbour is below the least area and, as far as there are
+  /// neighbours, no more than the largest number is left: that number exactly if there were more.
+  void run(const AbsorptionLimits& limits);
+
+  /// After run(): the initial region that stands for the region of initial region i.
+  [[nodiscard]] uint32_t representative(uint32_t i);
+  /// After run(): the regions that are left, in no promised order.
+  [[nodiscard]] const std::vector<AbsorbedRegion>& left() const { return regions_; }
+
+ private:
+  struct Mean {
+    int32_t red, green, blue;
+  };
+
+  [[nodiscard]] uint64_t mergeRound();
+  void chooseAllBelow(uint32_t areaPx);
+  void chooseSmallest(uint32_t count);
+  void findMeans();
+  void findBest();
+  void contract();
+  void compactBorders();
+  [[nodiscard]] uint64_t distance(const AbsorbedBorder& border) const;
+
+  std::vector<AbsorbedRegion> regions_;
+  std::vector<AbsorbedBorder> borders_, sorted_;
+  std::vector<uint32_t> forest_;   ///< Initial region → one nearer to its representative.
+  std::vector<uint8_t> chooses_;   ///< Regions that look for a neighbour in this round.
+  std::vector<uint64_t> best_;     ///< Least key of each of those.
+  std::vector<uint32_t> parents_;  ///< Where each region goes in this round; then new numbers.
+  std::vector<uint32_t> starts_, seenAt_;
+  std::vector<Mean> means_;
+  std::vector<uint64_t> order_;
+};
+
+}  // namespace rg

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// From a region's sums of absolute differences to its vector and how far it can be relied on (part
+// of stage 4).
+#pragma once
+
+#include "core/region_motion.hpp"
+
+#include <cstdint>
+#include <span>
+
+namespace rg {
+
+/// Sums over a region's pixels of products of the luma's central differences, in grey levels per 2
+/// pixels.
+struct GradientSums {
+  int64_t xx = 0, xy = 0, yy = 0;
+  uint64_t pixels = 0;
+};
+
+inline void add(GradientSums& to, const GradientSums& from) {
+  to.xx += from.xx;
+  to.xy += from.xy;
+  to.yy += from.yy;
+  to.pixels += from.pixels;
+}
+
+/// sums: as core/cell_matching.hpp orders them.
+template <class Sum>
+[[nodiscard]] RegionMotion estimateMotion(std::span<const Sum> sums, int reach,
+                                          const GradientSums& gradients, bool isSubpixel);
+
+}  // namespace rg

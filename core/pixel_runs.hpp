@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Linked pixels as horizontal runs, and the runs' components (part of stage 2).
+//
+// Determinism: a component is a transitive closure; components are numbered from 0 in the raster
+// order of their first pixels.
+#pragma once
+
+#include "core/colour_links.hpp"
+#include "core/executor.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace rg {
+
+/// Columns first … last − 1 of one row, linked one to the next.
+struct PixelRun {
+  int32_t first = 0;
+  int32_t last = 0;
+};
+
+class PixelRuns {
+ public:
+  void build(const ColourLinks& links, const Executor& executor);
+
+  [[nodiscard]] uint32_t count() const { return static_cast<uint32_t>(runs_.size()); }
+  [[nodiscard]] uint32_t componentCount() const { return componentCount_; }
+  /// Index of the first run of row y; y = height gives count().
+  [[nodiscard]] uint32_t rowStart(int y) const { return rowStarts_[static_cast<size_t>(y)]; }
+  [[nodiscard]] const PixelRun& run(uint32_t i) const { return runs_[i]; }
+  [[nodiscard]] uint32_t component(uint32_t run) const { return components_[run]; }
+
+ private:
+  void findRuns(const ColourLinks& links, int y);
+  void joinRows(const ColourLinks& links, int y);
+  void numberComponents();
+
+  std::vector<uint32_t> rowStarts_;
+  std::vector<PixelRun> runs_;
+  std::vector<uint32_t> parents_, components_;
+  std::vector<uint8_t> seams_;  ///< Rows that are to be joined to the rows of another task.
+  uint32_t componentCount_ = 0;
+};
+
+/// Calls visit(i, j, first, last) for the runs i of row y − 1 and j of row y that have the columns
+/// first … last − 1 in common.
+template <class Visit>
+void forOverlaps(const PixelRuns& runs, int y, Visit&& visit) {
+  uint32_t i = runs.rowStart(y - 1);
+  uint32_t j = runs.rowStart(y);
+  const uint32_t iEnd = j;
+  const uint32_t jEnd = runs.rowStart(y + 1);
+  while (i < iEnd && j < jEnd) {
+    const PixelRun& a = runs.run(i);
+    const PixelRun& b = runs.run(j);
+    const int first = a.first > b.first ? a.first : b.first;
+    const int last = a.last < b.last ? a.last : b.last;
+    if (first < last) visit(i, j, first, last);
+    if (a.last <= b.last) ++i;
+    if (b.last <= a.last) ++j;
+  }
+}
+
+}  // namespace rg

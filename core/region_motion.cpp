@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "core/region_motion.hpp"
+
+#include "core/cell_matching.hpp"
+#include "core/motion_estimate.hpp"
+#include "core/pool.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace rg {
+namespace {
+
+constexpr int kMostShift = 64;
+constexpr uint32_t kPartsPerChunk = 32;
+/// Sums are kept for one batch of chunks only: whatever the number of regions, this many bytes.
+constexpr size_t kBatchBytes = size_t{4} << 20;
+constexpr size_t kMostChunksInBatch = 256;
+
+/// Parts first … last − 1 of the sorted list, all of one label: a task's work.
+struct Chunk {
+  uint32_t first = 0;
+  uint32_t last = 0;
+};
+
+/// Chunks first … last − 1 of a batch that belong to one region.
+struct Group {
+  size_t first = 0;
+  size_t last = 0;
+};
+
+GradientSums gradientsOf(const CellPart& part, ImageView<const uint16_t> ids,
+                         ImageView<const uint8_t> luma) {
+  GradientSums sums;
+  sums.pixels = part.pixels;
+  const int x0 = part.cellX * kCellSize, y0 = part.cellY * kCellSize;
+  for (int y = y0; y < std::min(y0 + kCellSize, ids.height()); ++y) {
+    const uint8_t* row = luma.row(y);
+    const uint8_t* above = luma.row(std::max(y - 1, 0));
+    const uint8_t* below = luma.row(std::min(y + 1, ids.height() - 1));
+    for (int x = x0; x < std::min(x0 + kCellSize, ids.width()); ++x) {
+      if (ids.row(y)[x] != part.label) continue;
+      const int dx = row[std::min(x + 1, ids.width() - 1)] - row[std::max(x - 1, 0)];
+      const int dy = below[x] - above[x];
+      sums.xx += dx * dx;
+      sums.xy += dx * dy;
+      sums.yy += dy * dy;
+    }
+  }
+  return sums;
+}
+
+class CpuMotion : public MotionStage {
+ public:
+  explicit CpuMotion(Context context) : context_(std::move(context)) {}
+
+  Result<std::shared_ptr<const Motion>> process(std::shared_ptr<const Graph> graph,
+                                                const MotionParams& params) override;
+  void reset(Reset) override { previous_.reset(); }
+
+ private:
+  void match(const Labels& labels, const MotionParams& params, Motion& motion);
+  void collectParts(const Labels& labels);
+  void cutChunks();
+  void matchBatch(size_t first, size_t last, const Labels& labels);
+  void closeBatch(size_t first, size_t last, Motion& motion);
+  void addToCarry(const Group& group);
+  [[nodiscard]] RegionMotion closeGroup(const Group& group);
+
+  [[nodiscard]] uint16_t labelOf(size_t chunk) const { return parts_[chunks_[chunk].first].label; }
+  [[nodiscard]] std::span<uint32_t> sumsOf(size_t slot) {
+    return {sums_.data() + slot * shifts_, shifts_};
+  }
+
+  Context context_;
+  std::shared_ptr<const Picture> previous_;
+  PaddedLuma padded_;
+  std::vector<std::vector<CellPart>> rowParts_;
+  std::vector<CellPart> parts_;
+  std::vector<uint32_t> starts_;
+  std::vector<Chunk> chunks_;
+  std::vector<Group> groups_;
+  int reach_ = 0;
+  bool isSubpixel_ = true;
+  size_t shifts_ = 0;
+  std::vector<uint32_t> sums_;           ///< By chunk of the batch, then by shift.
+  std::vector<GradientSums> gradients_;  ///< By chunk of the batch.
+  std::vector<MatchScratch> scratch_;
+  std::vector<uint64_t> carry_;  ///< Sums of the region that the batch before left open.
+  GradientSums carriedGradients_;
+  Pool<Motion> pool_;
+};
+
+Result<std::shared_ptr<const Motion>> CpuMotion::process(std::shared_ptr<const Graph> graph,
+                                                         const MotionParams& params) {
+  const auto motion = pool_.take();
+  motion->size = graph->size;
+  motion->status = Status::Skipped;
+  motion->regions.assign(graph->regions.size(), {});
+  if (graph->status != Status::Skipped) {
+    std::shared_ptr<const Picture> picture = graph->labels->picture;
+    if (previous_ && previous_->size() == picture->size()) {
+      match(*graph->labels, params, *motion);
+      motion->status = graph->status;
+    }
+    previous_ = std::move(picture);
+  }
+  motion->graph = std::move(graph);
+  return std::shared_ptr<const Motion>(motion);
+}
+
+void CpuMotion::match(const Labels& labels, const MotionParams& params, Motion& motion) {
+  reach_ = std::clamp(params.maxShiftPx, 1, kMostShift);
+  isSubpixel_ = params.isSubpixel;
+  shifts_ = static_cast<size_t>(shiftCount(reach_));
+  collectParts(labels);
+  if (parts_.empty()) return;
+  padded_.build(previous_->luma(), reach_, *context_.cpu);
+  cutChunks();
+  const size_t slots = std::min(kMostChunksInBatch, kBatchBytes / (shifts_ * sizeof(uint32_t)));
+  sums_.resize(slots * shifts_);
+  gradients_.resize(slots);
+  scratch_.resize(slots);
+  carry_.assign(shifts_, 0);
+  carriedGradients_ = {};
+  for (size_t first = 0; first < chunks_.size(); first += slots) {
+    const size_t last = std::min(first + slots, chunks_.size());
+    matchBatch(first, last, labels);
+    closeBatch(first, last, motion);
+  }
+}
+
+// Sorted by label, then by cell: a count by label keeps the order of the cells.
+void CpuMotion::collectParts(const Labels& labels) {
+  const int rows = (labels.size.height + kCellSize - 1) / kCellSize;
+  rowParts_.resize(static_cast<size_t>(rows));
+  context_.cpu->forEach(rows, [&](int row) {
+    rowParts_[static_cast<size_t>(row)].clear();
+    findParts(labels.ids, row, rowParts_[static_cast<size_t>(row)]);
+  });
+  starts_.assign(size_t{labels.count} + 2, 0);
+  for (const auto& row : rowParts_)
+    for (const CellPart& part : row) ++starts_[part.label + 1u];
+  std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
+  parts_.resize(starts_.back());
+  for (const auto& row : rowParts_)
+    for (const CellPart& part : row) parts_[starts_[part.label]++] = part;
+}
+
+void CpuMotion::cutChunks() {
+  chunks_.clear();
+  const auto count = static_cast<uint32_t>(parts_.size());
+  for (uint32_t first = 0; first < count;) {
+    uint32_t last = first + 1;
+    while (last < count && last - first < kPartsPerChunk &&
+           parts_[last].label == parts_[first].label)
+      ++last;
+    chunks_.push_back({first, last});
+    first = last;
+  }
+}
+
+void CpuMotion::matchBatch(size_t first, size_t last, const Labels& labels) {
+  const ImageView<const uint8_t> luma = labels.picture->luma();
+  context_.cpu->forEach(static_cast<int>(last - first), [&](int i) {
+    const auto slot = static_cast<size_t>(i);
+    const Chunk& chunk = chunks_[first + slot];
+    std::fill(sumsOf(slot).begin(), sumsOf(slot).end(), 0u);
+    gradients_[slot] = {};
+    for (uint32_t p = chunk.first; p < chunk.last; ++p) {
+      addPart(parts_[p], labels.ids, luma, padded_, scratch_[slot], sumsOf(slot));
+      add(gradients_[slot], gradientsOf(parts_[p], labels.ids, luma));
+    }
+  });
+}
+
+// A region may begin in an earlier batch and end in a later one: its sums are carried on.
+void CpuMotion::closeBatch(size_t first, size_t last, Motion& motion) {
+  groups_.clear();
+  for (size_t chunk = first; chunk < last; ++chunk) {
+    if (groups_.empty() || labelOf(chunk) != labelOf(chunk - 1))
+      groups_.push_back({chunk - first, chunk - first});
+    ++groups_.back().last;
+  }
+  const bool isCarried = first > 0 && labelOf(first) == labelOf(first - 1);
+  const bool goesOn = last < chunks_.size() && labelOf(last) == labelOf(last - 1);
+  size_t begin = 0, end = groups_.size();
+  if (isCarried) {
+    addToCarry(groups_.front());
+    begin = 1;
+    if (goesOn && end == 1) return;
+    motion.regions[labelOf(first) - 1u] =
+        estimateMotion<uint64_t>(carry_, reach_, carriedGradients_, isSubpixel_);
+    std::fill(carry_.begin(), carry_.end(), 0u);
+    carriedGradients_ = {};
+  }
+  if (goesOn) addToCarry(groups_[--end]);
+  context_.cpu->forEach(static_cast<int>(end - begin), [&](int i) {
+    const Group& group = groups_[begin + static_cast<size_t>(i)];
+    motion.regions[labelOf(first + group.first) - 1u] = closeGroup(group);
+  });
+}
+
+void CpuMotion::addToCarry(const Group& group) {
+  for (size_t slot = group.first; slot < group.last; ++slot) {
+    const std::span<const uint32_t> sums = sumsOf(slot);
+    for (size_t i = 0; i < shifts_; ++i) carry_[i] += sums[i];
+    add(carriedGradients_, gradients_[slot]);
+  }
+}
+
+/// A batch's chunks have less than 2^20 pixels: their sums fit 32 bits.
+RegionMotion CpuMotion::closeGroup(const Group& group) {
+  const std::span<uint32_t> total = sumsOf(group.first);
+  for (size_t slot = group.first + 1; slot < group.last; ++slot) {
+    const std::span<const uint32_t> sums = sumsOf(slot);
+    for (size_t i = 0; i < shifts_; ++i) total[i] += sums[i];
+    add(gradients_[group.first], gradients_[slot]);
+  }
+  return estimateMotion<uint32_t>(total, reach_, gradients_[group.first], isSubpixel_);
+}
+
+}  // namespace
+
+std::unique_ptr<MotionStage> makeMotionStage(Context context) {
+  return std::make_unique<CpuMotion>(std::move(context));
+}
+
+}  // namespace rg

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "core/segmentation.hpp"
+
+#include "core/absorption.hpp"
+#include "core/colour_links.hpp"
+#include "core/pixel_runs.hpp"
+#include "core/pool.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace rg {
+namespace {
+
+constexpr int kMostRegions = 65535;
+constexpr int64_t kDefaultAreaShare = 1200;  // Least area of a region, as a share of the frame.
+constexpr int64_t kDefaultLeastArea = 32;
+constexpr int kDefaultSimilarity = 2;
+
+constexpr uint32_t leastArea(const SegmentationParams& params, Size size) {
+  if (params.minAreaPx > 0) return static_cast<uint32_t>(params.minAreaPx);
+  return static_cast<uint32_t>(std::max(kDefaultLeastArea, size.area() / kDefaultAreaShare));
+}
+
+Result<std::shared_ptr<const Labels>> skipped(Pool<Labels>& pool, Scope scope, Size size) {
+  const auto labels = pool.take();
+  labels->size = size;
+  labels->status = Status::Skipped;
+  labels->scope = scope;
+  labels->ids.resize({});
+  labels->count = 0;
+  return std::shared_ptr<const Labels>(labels);
+}
+
+class CpuSegmentation : public SegmentationStage {
+ public:
+  explicit CpuSegmentation(Context context) : context_(std::move(context)) {}
+
+  Result<std::shared_ptr<const Labels>> process(std::shared_ptr<const Picture> picture,
+                                                std::shared_ptr<const Foreground> foreground,
+                                                const SegmentationParams& params) override;
+  void reset(Reset) override {}
+
+ private:
+  void collectRegions(const Picture& picture);
+  void collectBorders();
+  void collectBorders(int y);
+  void numberRegions(uint32_t maxRegions, Labels& labels);
+
+  Context context_;
+  ColourLinks links_;
+  PixelRuns runs_;
+  Absorption absorption_;
+  std::vector<uint32_t> numbers_;
+  std::vector<uint64_t> order_;
+  Pool<Labels> pool_;
+};
+
+Result<std::shared_ptr<const Labels>> CpuSegmentation::process(
+    std::shared_ptr<const Picture> picture, std::shared_ptr<const Foreground> foreground,
+    const SegmentationParams& params) {
+  const bool wantsForeground = params.scope == Scope::Foreground;
+  if (wantsForeground && !foreground)
+    return Error{"scope foreground needs a foreground: add bgremove upstream"};
+  if (!picture || (foreground && foreground->status == Status::Skipped))
+    return skipped(pool_, params.scope, foreground ? foreground->size : Size{});
+  if (wantsForeground && foreground->mask.size() != picture->size())
+    return Error{"the foreground was made for another frame size"};
+
+  const auto labels = pool_.take();
+  labels->size = picture->size();
+  labels->status = foreground ? foreground->status : Status::Ok;
+  labels->scope = params.scope;
+  labels->ids.resize(labels->size);
+  const int similarity = params.similarity > 0 ? params.similarity : kDefaultSimilarity;
+  const uint32_t minArea = leastArea(params, labels->size);
+  const auto maxRegions = static_cast<uint32_t>(std::clamp(params.maxRegions, 1, kMostRegions));
+
+  ImageView<const uint8_t> mask;
+  if (wantsForeground) mask = foreground->mask;
+  links_.build(*picture, mask, {similarity, minArea > 1}, *context_.cpu);
+  runs_.build(links_, *context_.cpu);
+  collectRegions(*picture);
+  collectBorders();
+  absorption_.run({minArea, maxRegions});
+  numberRegions(maxRegions, *labels);
+  labels->picture = std::move(picture);
+  labels->foreground = std::move(foreground);
+  return std::shared_ptr<const Labels>(labels);
+}
+
+void CpuSegmentation::collectRegions(const Picture& picture) {
+  std::vector<AbsorbedRegion>& regions = absorption_.regions();
+  regions.assign(runs_.componentCount(), {});
+  for (int y = 0; y < links_.size().height; ++y) {
+    const uint8_t *red = picture.red().row(y), *green = picture.green().row(y),
+                  *blue = picture.blue().row(y);
+    for (uint32_t i = runs_.rowStart(y); i < runs_.rowStart(y + 1); ++i) {
+      const PixelRun& run = runs_.run(i);
+      uint32_t sums[3] = {};
+      for (int x = run.first; x < run.last; ++x) {
+        sums[0] += red[x];
+        sums[1] += green[x];
+        sums[2] += blue[x];
+      }
+      AbsorbedRegion& region = regions[runs_.component(i)];
+      region.red += sums[0];
+      region.green += sums[1];
+      region.blue += sums[2];
+      region.areaPx += static_cast<uint32_t>(run.last - run.first);
+    }
+  }
+}
+
+void CpuSegmentation::collectBorders() {
+  absorption_.borders().clear();
+  for (int y = 0; y < links_.size().height; ++y) collectBorders(y);
+}
+
+void CpuSegmentation::collectBorders(int y) {
+  std::vector<AbsorbedBorder>& borders = absorption_.borders();
+  const uint8_t* left = links_.leftDistances(y);
+  for (uint32_t j = runs_.rowStart(y) + 1; j < runs_.rowStart(y + 1); ++j) {
+    const uint32_t a = runs_.component(j - 1), b = runs_.component(j);
+    const PixelRun& run = runs_.run(j);
+    if (a != b && runs_.run(j - 1).last == run.first) borders.push_back({a, b, 1, left[run.first]});
+  }
+  if (y == 0) return;
+  const uint8_t* up = links_.upDistances(y);
+  forOverlaps(runs_, y, [&](uint32_t i, uint32_t j, int first, int last) {
+    const uint32_t a = runs_.component(i), b = runs_.component(j);
+    if (a == b) return;
+    uint32_t contrast = 0;
+    for (int x = first; x < last; ++x) contrast += up[x];
+    borders.push_back({a, b, static_cast<uint32_t>(last - first), contrast});
+  });
+}
+
+// Numbers follow the raster order of first pixels, as the components do. Where parts that touch
+// nothing are still more than allowed, the smallest go to label 0.
+void CpuSegmentation::numberRegions(uint32_t maxRegions, Labels& labels) {
+  constexpr uint32_t kDropped = 0, kOpen = ~uint32_t{0};
+  numbers_.assign(runs_.componentCount(), kOpen);
+  const std::vector<AbsorbedRegion>& left = absorption_.left();
+  if (left.size() > maxRegions) {
+    order_.clear();
+    for (const AbsorbedRegion& region : left)
+      order_.push_back(uint64_t{region.areaPx} << 32 | region.representative);
+    const size_t surplus = left.size() - maxRegions;
+    std::nth_element(order_.begin(), order_.begin() + static_cast<ptrdiff_t>(surplus),
+                     order_.end());
+    for (size_t i = 0; i < surplus; ++i) numbers_[static_cast<uint32_t>(order_[i])] = kDropped;
+  }
+  labels.count = 0;
+  for (uint32_t i = 0; i < numbers_.size(); ++i) {
+    uint32_t& number = numbers_[absorption_.representative(i)];
+    if (number == kOpen) number = ++labels.count;
+    numbers_[i] = number;
+  }
+  context_.cpu->forRows(labels.size.height, [&](int firstRow, int lastRow) {
+    for (int y = firstRow; y < lastRow; ++y) {
+      uint16_t* ids = labels.ids.row(y);
+      int done = 0;
+      for (uint32_t i = runs_.rowStart(y); i < runs_.rowStart(y + 1); ++i) {
+        const PixelRun& run = runs_.run(i);
+        const auto id = static_cast<uint16_t>(numbers_[runs_.component(i)]);
+        std::fill(ids + done, ids + run.first, kNoRegion);
+        std::fill(ids + run.first, ids + run.last, id);
+        done = run.last;
+      }
+      std::fill(ids + done, ids + labels.size.width, kNoRegion);
+    }
+  });
+}
+
+}  // namespace
+
+std::unique_ptr<SegmentationStage> makeSegmentationStage(Context context) {
+  return std::make_unique<CpuSegmentation>(std::move(context));
+}
+
+}  // namespace rg
