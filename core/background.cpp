@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "core/background.hpp"
+
+#include "core/background_method.hpp"
+#include "core/components.hpp"
+#include "core/pool.hpp"
+
+#include <optional>
+#include <string>
+
+namespace rg {
+namespace {
+
+class CpuBackgroundStage final : public BackgroundStage {
+ public:
+  explicit CpuBackgroundStage(Context context) : context_(std::move(context)) {}
+
+  Result<std::shared_ptr<const Foreground>> process(std::shared_ptr<const Picture> picture,
+                                                    const BackgroundParams& params,
+                                                    FrameTime time) override;
+  void reset(Reset what) override;
+
+ private:
+  BackgroundMethodModel& modelOf(BackgroundMethod method);
+
+  Context context_;
+  FrameClock clock_;
+  Size size_;
+  bool isGrey_ = false;
+  std::optional<BackgroundMethod> method_;
+  std::unique_ptr<BackgroundMethodModel> model_;
+  Components parts_;
+  Pool<Foreground> pool_;
+};
+
+/// Another method starts anew: the models have nothing in common.
+BackgroundMethodModel& CpuBackgroundStage::modelOf(BackgroundMethod method) {
+  if (!model_ || method_ != method) {
+    model_ = method == BackgroundMethod::Paper ? makePaperBackground() : makeHybridBackground();
+    method_ = method;
+  }
+  return *model_;
+}
+
+Result<std::shared_ptr<const Foreground>> CpuBackgroundStage::process(
+    std::shared_ptr<const Picture> picture, const BackgroundParams& params, FrameTime time) {
+  if (!picture || picture->size().isEmpty()) return Error{"the picture has no pixels"};
+  const Size size = picture->size();
+  if (!size_.isEmpty() && (size != size_ || picture->isGrey() != isGrey_))
+    return Error{"the picture's format changed from " + std::to_string(size_.width) + "x" +
+                 std::to_string(size_.height) + " within a stream"};
+  BackgroundMethodModel& model = modelOf(params.method);
+  model.prepare(*picture);
+  size_ = size;
+  isGrey_ = picture->isGrey();
+  clock_.tick(time);
+
+  std::shared_ptr<Foreground> out = pool_.take();
+  out->size = size;
+  out->scene = {};
+  out->status = Status::Ok;
+  out->picture = picture;
+  model.segment({std::move(picture), params, clock_, *context_.cpu}, *out);
+
+  findComponents(out->mask, kForegroundPixel, Connectivity::Eight, parts_);
+  out->areas.clear();
+  for (const Component& part : parts_.list) {
+    out->areas.push_back(part.box);
+    out->scene.foregroundPx += part.areaPx;
+  }
+  return {std::move(out)};
+}
+
+void CpuBackgroundStage::reset(Reset what) {
+  clock_.breakOff();
+  if (model_) model_->reset(what);
+  if (what != Reset::Stream) return;
+  clock_ = {};
+  size_ = {};
+}
+
+}  // namespace
+
+std::unique_ptr<BackgroundStage> makeBackgroundStage(Context context) {
+  return std::make_unique<CpuBackgroundStage>(std::move(context));
+}
+
+}  // namespace rg

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// What the methods of bgremove have in common inside the stage. Not for other stages.
+#pragma once
+
+#include "core/background.hpp"
+#include "core/frame_clock.hpp"
+
+namespace rg {
+
+/// One frame's work order. The stage has checked that the size is the model's.
+struct BackgroundJob {
+  std::shared_ptr<const Picture> picture;
+  const BackgroundParams& params;
+  const FrameClock& clock;
+  const Executor& executor;
+};
+
+class BackgroundMethodModel {
+ public:
+  virtual ~BackgroundMethodModel() = default;
+  /// Allocates whatever segment() needs for such pictures. May throw; changes no model.
+  virtual void prepare(const Picture& picture) = 0;
+  /// Writes status, mask and scene; then learns the frame.
+  virtual void segment(const BackgroundJob& job, Foreground& out) = 0;
+  virtual void reset(Reset what) = 0;
+};
+
+[[nodiscard]] std::unique_ptr<BackgroundMethodModel> makePaperBackground();
+[[nodiscard]] std::unique_ptr<BackgroundMethodModel> makeHybridBackground();
+
+}  // namespace rg

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The default method: the paper's structure over a model of several modes.
+#include "core/background_method.hpp"
+#include "core/consensus_background.hpp"
+#include "core/mask_cleaning.hpp"
+#include "core/shadow.hpp"
+
+#include <algorithm>
+
+namespace rg {
+namespace {
+
+constexpr int kUsualThreshold = 14;
+
+class HybridBackground final : public BackgroundMethodModel {
+ public:
+  void prepare(const Picture& picture) override;
+  void segment(const BackgroundJob& job, Foreground& out) override;
+  void reset(Reset what) override;
+
+ private:
+  void start(const BackgroundJob& job, Foreground& out);
+  void judge(const BackgroundJob& job);
+  void clean(const BackgroundJob& job, ImageView<uint8_t> mask);
+  void learnFrame(const BackgroundJob& job, ImageView<const uint8_t> mask);
+
+  SmoothPicture smooth_;
+  ConsensusBackground model_;
+  Distances distances_;
+  Image<uint8_t> radii_, raw_, previousRaw_, strong_;
+  CleaningScratch scratch_;
+  uint32_t frame_ = 0;
+};
+
+void HybridBackground::prepare(const Picture& picture) {
+  const Size size = picture.size();
+  for (Image<uint8_t>* image : {&radii_, &raw_, &previousRaw_, &strong_}) image->resize(size);
+  rg::prepare(size, picture.isGrey() ? 1 : 3, model_);
+}
+
+void HybridBackground::reset(Reset what) {
+  if (what == Reset::Stream) model_.channels = 0;
+}
+
+void HybridBackground::start(const BackgroundJob& job, Foreground& out) {
+  fillFrom(smooth_, job.executor, model_);
+  previousRaw_.fill(0);
+  frame_ = 0;
+  out.status = Status::Training;
+  out.mask.fill(kBackgroundPixel);
+}
+
+void HybridBackground::judge(const BackgroundJob& job) {
+  measure(smooth_, model_, job.executor, distances_);
+  const int least = job.params.threshold > 0 ? job.params.threshold : kUsualThreshold;
+  findRadii(model_, least, job.executor, radii_);
+  job.executor.forRows(raw_.height(), [&](int first, int last) {
+    for (int y = first; y < last; ++y) {
+      const uint8_t *second = distances_.second.row(y), *radius = radii_.row(y);
+      for (int x = 0; x < raw_.width(); ++x) {
+        raw_.row(y)[x] = second[x] > radius[x] ? 255 : 0;
+        strong_.row(y)[x] = second[x] > std::min(254, 2 * radius[x]) ? 255 : 0;
+      }
+    }
+  });
+}
+
+void HybridBackground::clean(const BackgroundJob& job, ImageView<uint8_t> mask) {
+  const auto pixels = static_cast<uint32_t>(mask.size.area());
+  const int radius = pixels < 40000 ? 1 : pixels < 200000 ? 2 : 3;
+  keepMajority(raw_, radius, 128, job.executor, scratch_, mask);
+  keepSupported(mask, strong_, std::max(4u, pixels / 10000), scratch_);
+  fillHoles(mask, pixels / 50, scratch_);
+  dropSmallParts(mask, std::max(8u, pixels / 4000), scratch_);
+}
+
+void HybridBackground::learnFrame(const BackgroundJob& job, ImageView<const uint8_t> mask) {
+  const bool isFirst = frame_ < static_cast<uint32_t>(job.params.trainingFrames);
+  const auto usual =
+      std::clamp<int64_t>(job.clock.frames(job.params.learningTimeS) / kSamples, 2, 4096);
+  const ConsensusRate rate{frame_, isFirst ? 3 : static_cast<int>(usual), isFirst};
+  learn(smooth_, {mask, raw_, previousRaw_}, distances_, rate, job.executor, model_);
+  std::swap(raw_, previousRaw_);
+}
+
+void HybridBackground::segment(const BackgroundJob& job, Foreground& out) {
+  out.mask.resize(job.picture->size());
+  smooth(*job.picture, job.executor, smooth_);
+  if (model_.channels == 0) return start(job, out);
+  ++frame_;
+  judge(job);
+  clean(job, out.mask);
+  learnFrame(job, out.mask);
+}
+
+}  // namespace
+
+std::unique_ptr<BackgroundMethodModel> makeHybridBackground() {
+  return std::make_unique<HybridBackground>();
+}
+
+}  // namespace rg

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Cast shadows: places where the picture is the background, darker by a factor (paper, section
+// 2.2.1: "shadows are removed").
+//
+// Determinism: integers only; each pixel looks at its own window.
+#pragma once
+
+#include "core/executor.hpp"
+#include "core/image.hpp"
+#include "core/picture.hpp"
+
+#include <cstdint>
+
+namespace rg {
+
+/// The background as it would look without objects. A grey one has all planes alike.
+struct BackgroundView {
+  ImageView<const uint8_t> red, green, blue;
+};
+
+/// Sets `shadow` to 255 where `mask` is set and the window of 5x5 around the pixel is explained by
+/// one factor between 0.4 and 0.95 on the background and the colour agrees; to 0 elsewhere.
+void findShadows(const Picture& picture, const BackgroundView& background,
+                 ImageView<const uint8_t> mask, const Executor& executor,
+                 ImageView<uint8_t> shadow);
+
+}  // namespace rg
