@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "core/box_fit.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+namespace rg {
+namespace {
+
+constexpr int kForegroundGain = 4;
+constexpr int kBackgroundLoss =
+    3;  // A body fills some 60 % of its box: empty cells must cost less.
+constexpr int kRounds = 3;
+
+/// Adds `change` to the claims of the cells inside the box.
+void claim(const Evidence& e, const Box& box, int change, std::vector<uint8_t>& claims) {
+  const Box inside = intersect(box, boundsOf(e.grid));
+  for (int y = inside.y; y < inside.bottom(); ++y)
+    for (int x = inside.x; x < inside.right(); ++x) {
+      uint8_t& count = claims[e.at(x, y)];
+      count = static_cast<uint8_t>(std::clamp(count + change, 0, 255));
+    }
+}
+
+/// Sums of what the cells of `window` are worth to a task: at(x, y) covers all above and left.
+class ValueSums {
+ public:
+  ValueSums(const Evidence& e, const FitTask& task, const Box& window, FitScratch& s)
+      : window_(window), stride_(window.width + 1), sums_(s.sums) {
+    sums_.assign(static_cast<size_t>(stride_) * static_cast<size_t>(window.height + 1), 0);
+    for (int y = 0; y < window.height; ++y) {
+      int32_t row = 0;
+      for (int x = 0; x < window.width; ++x) {
+        const Point cell{window.x + x, window.y + y};
+        if (boundsOf(e.grid).contains(cell)) row += value(e, task, e.at(cell.x, cell.y), s.claims);
+        at(x + 1, y + 1) = at(x + 1, y) + row;
+      }
+    }
+  }
+  [[nodiscard]] int32_t inside(const Box& box) const {
+    const int left = box.x - window_.x, top = box.y - window_.y;
+    return get(left + box.width, top + box.height) - get(left, top + box.height) -
+           get(left + box.width, top) + get(left, top);
+  }
+
+ private:
+  static int value(const Evidence& e, const FitTask& task, size_t cell,
+                   const std::vector<uint8_t>& claims) {
+    if (e.group[cell] == 0) return -kBackgroundLoss;
+    return claims[cell] > 0 ? 0 : kForegroundGain + task.bonus[e.bin[cell]];
+  }
+  int32_t& at(int x, int y) { return sums_[static_cast<size_t>(y * stride_ + x)]; }
+  [[nodiscard]] int32_t get(int x, int y) const {
+    return sums_[static_cast<size_t>(y * stride_ + x)];
+  }
+  Box window_;
+  int stride_;
+  std::vector<int32_t>& sums_;
+};
+
+Box bestPlace(const Evidence& e, const FitTask& task, FitScratch& s) {
+  const Box& box = task.expected;
+  const Box window{box.x - task.reachX, box.y - task.reachY, box.width + 2 * task.reachX,
+                   box.height + 2 * task.reachY};
+  const ValueSums sums(e, task, window, s);
+  const int margin = box.width / 4;
+  Box best = box;
+  std::tuple<int64_t, int, int, int> bestKey{INT64_MAX, 0, 0, 0};
+  for (int dy = -task.reachY; dy <= task.reachY; ++dy)
+    for (int dx = -task.reachX; dx <= task.reachX; ++dx) {
+      const Box place{box.x + dx, box.y + dy, box.width, box.height};
+      const Box core{place.x + margin, place.y, place.width - 2 * margin, place.height};
+      // A shift by half the width costs a quarter of what a full box gains.
+      const int64_t far = int64_t{kForegroundGain} * box.area() *
+                          (int64_t{dx} * dx * box.height * box.height +
+                           int64_t{dy} * dy * box.width * box.width * 4) /
+                          (box.area() * box.area());
+      const int64_t score = sums.inside(place) + sums.inside(core) - far;
+      const std::tuple key{-score, dx * dx + dy * dy, dy, dx};
+      if (key < bestKey) {
+        bestKey = key;
+        best = place;
+      }
+    }
+  return best;
+}
+
+}  // namespace
+
+void fitBoxes(const Evidence& e, std::span<FitTask> tasks, FitScratch& s) {
+  s.claims.assign(e.group.size(), 0);
+  for (size_t first = 0, last = 0; first < tasks.size(); first = last) {
+    while (last < tasks.size() && tasks[last].tier == tasks[first].tier) ++last;
+    const auto tier = tasks.subspan(first, last - first);
+    for (FitTask& task : tier) {
+      task.fitted = task.expected;
+      claim(e, task.fitted, 1, s.claims);
+    }
+    for (int round = 0; round < kRounds; ++round)
+      for (FitTask& task : tier) {
+        claim(e, task.fitted, -1, s.claims);
+        task.fitted = bestPlace(e, task, s);
+        claim(e, task.fitted, 1, s.claims);
+      }
+  }
+}
+
+void assignCells(const Evidence& e, std::span<const FitTask> tasks, std::vector<uint16_t>& owner) {
+  owner.assign(e.group.size(), 0);
+  for (size_t i = 0; i < tasks.size(); ++i) {
+    const FitTask& task = tasks[i];
+    const Box box = intersect(task.fitted, boundsOf(e.grid));
+    for (int y = box.y; y < box.bottom(); ++y)
+      for (int x = box.x; x < box.right(); ++x) {
+        const size_t cell = e.at(x, y);
+        if (e.group[cell] == 0) continue;
+        uint16_t& mine = owner[cell];
+        if (mine != 0) {
+          const FitTask& other = tasks[mine - 1u];
+          const uint8_t bin = e.bin[cell];
+          if (other.tier < task.tier || other.bonus[bin] >= task.bonus[bin]) continue;
+        }
+        mine = static_cast<uint16_t>(i + 1);
+      }
+  }
+}
+
+}  // namespace rg

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// What the tracker looks at: the frame's merged groups on a coarse grid, so that its cost depends
+// on objects rather than on resolution.
+//
+// Determinism: each cell is the sample at its middle; components count in raster order.
+#pragma once
+
+#include "core/geometry.hpp"
+#include "core/mrf_merge.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace rg {
+
+struct Evidence {
+  int stepPx = 1;  ///< Side of a cell; 1 up to 288 lines, then growing with the frame.
+  Size frame;
+  Size grid;
+  std::vector<uint16_t> group;    ///< Of each cell: 1 + group, 0 = background. Row by row.
+  std::vector<uint8_t> bin;       ///< Colour bin (core/appearance.hpp), where group is not 0.
+  std::vector<uint32_t> cellsOf;  ///< Cells of each group.
+
+  /// The pixel that cell (x, y) shows.
+  [[nodiscard]] Point middleOf(int x, int y) const {
+    return {std::min(x * stepPx + stepPx / 2, frame.width - 1),
+            std::min(y * stepPx + stepPx / 2, frame.height - 1)};
+  }
+  [[nodiscard]] size_t at(int x, int y) const {
+    return static_cast<size_t>(y) * static_cast<size_t>(grid.width) + static_cast<size_t>(x);
+  }
+};
+
+/// Samples the labels. Groups for which isBackground is set count as background.
+void gather(const Graph& graph, std::span<const uint32_t> groupOf,
+            std::span<const uint8_t> isBackground, Evidence& evidence);
+
+/// An 8-connected set of cells that belong to no track.
+struct Piece {
+  uint32_t cells = 0;
+  Box box;  ///< In cells.
+};
+
+struct PieceScratch {
+  std::vector<uint32_t> parent;
+  std::vector<uint32_t> label;  ///< Of each cell: 1 + piece, 0 = none.
+};
+
+/// The parts of the foreground whose owner is 0. owner: for each cell 1 + track or 0.
+void findPieces(const Evidence& evidence, std::span<const uint16_t> owner, PieceScratch& scratch,
+                std::vector<Piece>& pieces);
+
+}  // namespace rg

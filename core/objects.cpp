@@ -1,0 +1,285 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "core/objects.hpp"
+
+#include "core/contour.hpp"
+#include "core/mrf_merge.hpp"
+#include "core/pixel.hpp"
+#include "core/pool.hpp"
+#include "core/tracker.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace rg {
+namespace {
+
+constexpr int64_t kNominalStepNs = 40'000'000;
+constexpr int64_t kLongestStepNs = 10'000'000'000;
+
+MergeWeights weightsOf(const ObjectParams& params) {
+  const auto q8 = [](double value) {
+    return static_cast<int32_t>(std::lround(std::clamp(value, 0.0, 1000.0) * 256));
+  };
+  MergeWeights weights;
+  weights.motion = q8(params.motionWeight);
+  weights.border = q8(params.borderWeight);
+  weights.arc = q8(params.arcWeight);
+  weights.motionThreshold =
+      std::max(1, static_cast<int32_t>(
+                      std::lround(std::clamp(params.motionThresholdPx, 0.0, 64.0) * kMotionUnit)));
+  return weights;
+}
+
+class CpuObjectStage final : public ObjectStage {
+ public:
+  Result<std::shared_ptr<const Objects>> process(std::shared_ptr<const Motion> motion,
+                                                 const ObjectParams& params,
+                                                 FrameTime time) override;
+  void reset(Reset what) override;
+
+ private:
+  void mergeRegions(const Motion& motion, const ObjectParams& params, Objects& objects);
+  void expectLabels(const Graph& graph);
+  void markBackground(const Motion& motion, const ObjectParams& params, Objects& objects);
+  void paint(const Graph& graph, Objects& objects);
+  void describe(const Graph& graph, bool hasTime, Objects& objects);
+  void nameRegions(const Graph& graph, Objects& objects);
+  [[nodiscard]] uint16_t labelAt(const Labels& labels, uint32_t cell) const;
+  int64_t stepTo(FrameTime time);
+
+  Tracker tracker_;
+  MergeScratch mergeScratch_;
+  VoteScratch voteScratch_;
+  std::vector<WeightedArc> arcs_;
+  std::vector<uint32_t> groupOf_;
+  std::vector<uint32_t> expected_;  ///< Of each region the object it is predicted to be, or 0.
+  std::vector<Group> groups_;
+  std::vector<uint8_t> isBackground_;
+  Evidence evidence_;
+  struct Sums {
+    uint64_t count = 0, x = 0, y = 0, red = 0, green = 0, blue = 0;
+    Point first;
+  };
+  std::vector<Sums> sums_;
+  std::vector<uint32_t> firstCell_, cells_;  ///< The cells of each track, one after another.
+  std::vector<uint32_t> votes_, mostVotes_;  ///< Of each region.
+  Pool<Objects> pool_;
+  FrameTime last_;
+  bool hasLast_ = false;
+};
+
+/// Time since the previous frame; a nominal step where it is unknown or runs backwards.
+int64_t CpuObjectStage::stepTo(FrameTime time) {
+  const bool isKnown = hasLast_ && time.isKnown && last_.isKnown && time.ns > last_.ns;
+  const int64_t step = isKnown    ? std::min(time.ns - last_.ns, kLongestStepNs)
+                       : hasLast_ ? kNominalStepNs
+                                  : 0;
+  last_ = time;
+  hasLast_ = true;
+  return step;
+}
+
+void CpuObjectStage::reset(Reset what) {
+  if (what == Reset::Gap) return;  // The next frame's time tells how far to predict.
+  tracker_.reset(what == Reset::Stream);
+  hasLast_ = false;
+}
+
+/// The object whose predicted box holds a region's centre: the nearest one by foot, smaller id.
+void CpuObjectStage::expectLabels(const Graph& graph) {
+  expected_.assign(graph.regions.size(), 0);
+  for (size_t r = 0; r < graph.regions.size(); ++r) {
+    const Region& region = graph.regions[r];
+    const Point centre{region.centroidX >> 8, region.centroidY >> 8};
+    int lowest = -1;
+    for (size_t t = 0; t < tracker_.tracks().size(); ++t) {
+      const Track& track = tracker_.tracks()[t];
+      const Box box = track.box();
+      if (!track.isSeen || !box.contains(centre) || box.bottom() <= lowest) continue;
+      lowest = box.bottom();
+      expected_[r] = static_cast<uint32_t>(t + 1);
+    }
+  }
+}
+
+void CpuObjectStage::mergeRegions(const Motion& motion, const ObjectParams& params,
+                                  Objects& objects) {
+  const Graph& graph = *motion.graph;
+  expectLabels(graph);
+  weighArcs(motion, expected_, weightsOf(params), arcs_);
+  groupOf_.clear();
+  minimise(static_cast<uint32_t>(graph.regions.size()), arcs_, mergeScratch_, groupOf_);
+  describeGroups(motion, groupOf_, groups_);
+  markBackground(motion, params, objects);
+}
+
+/// Under Scope::Frame the background is the largest group and all that move as the camera does.
+void CpuObjectStage::markBackground(const Motion& motion, const ObjectParams& params,
+                                    Objects& objects) {
+  isBackground_.assign(groups_.size(), 0);
+  objects.cameraDx = objects.cameraDy = 0;
+  if (motion.graph->labels->scope != Scope::Frame || groups_.empty()) return;
+  const RegionMotion camera = dominantMotion(motion, voteScratch_);
+  objects.cameraDx = camera.dx;
+  objects.cameraDy = camera.dy;
+  const int64_t reach = weightsOf(params).motionThreshold;
+  size_t largest = 0;
+  for (size_t g = 0; g < groups_.size(); ++g) {
+    const int64_t dx = groups_[g].dx - camera.dx, dy = groups_[g].dy - camera.dy;
+    isBackground_[g] =
+        groups_[g].reliability < kFullReliability / 8 || dx * dx + dy * dy <= reach * reach;
+    if (groups_[g].areaPx > groups_[largest].areaPx) largest = g;
+  }
+  isBackground_[largest] = 1;
+}
+
+/// Gives each pixel to an object: by its cell, and where that has no owner, not at all.
+void CpuObjectStage::paint(const Graph& graph, Objects& objects) {
+  const Labels& labels = *graph.labels;
+  const std::vector<uint16_t>& owner = tracker_.owner();
+  const size_t tracks = tracker_.tracks().size();
+  sums_.assign(tracks, {});
+  objects.slots.resize(graph.size);
+  const Picture* picture = labels.picture.get();
+  for (int y = 0; y < graph.size.height; ++y) {
+    const uint16_t* ids = labels.ids.row(y);
+    uint16_t* slots = objects.slots.row(y);
+    const uint16_t* owners = owner.data() + evidence_.at(0, y / evidence_.stepPx);
+    const uint16_t* groups = evidence_.group.data() + evidence_.at(0, y / evidence_.stepPx);
+    for (int x = 0; x < graph.size.width; ++x) {
+      slots[x] = 0;
+      if (ids[x] == kNoRegion || isBackground_[groupOf_[ids[x] - 1u]]) continue;
+      const int cell = x / evidence_.stepPx;
+      if (groups[cell] == 0 || owners[cell] == 0) continue;
+      slots[x] = owners[cell];
+      Sums& sum = sums_[owners[cell] - 1u];
+      if (sum.count++ == 0) sum.first = {x, y};
+      sum.x += static_cast<uint64_t>(x);
+      sum.y += static_cast<uint64_t>(y);
+      if (!picture) continue;
+      sum.red += picture->red().at(x, y);
+      sum.green += picture->green().at(x, y);
+      sum.blue += picture->blue().at(x, y);
+    }
+  }
+}
+
+void CpuObjectStage::describe(const Graph& graph, bool hasTime, Objects& objects) {
+  const std::vector<Track>& tracks = tracker_.tracks();
+  objects.objects.resize(tracks.size());
+  for (size_t i = 0; i < tracks.size(); ++i) {
+    const Track& track = tracks[i];
+    Object& object = objects.objects[i];
+    const Sums& sum = sums_[i];
+    object.id = track.id;
+    object.state = track.state;
+    object.box = track.box();
+    object.areaPx = static_cast<uint32_t>(sum.count);
+    object.centroidX = track.x;
+    object.centroidY = track.foot - track.size.height / 2;
+    object.colour = track.colour;
+    if (sum.count > 0) {
+      const auto mean = [&](uint64_t total) {
+        return static_cast<uint8_t>((total + sum.count / 2) / sum.count);
+      };
+      object.centroidX = static_cast<int32_t>((sum.x * kPositionUnit + sum.count / 2) / sum.count);
+      object.centroidY = static_cast<int32_t>((sum.y * kPositionUnit + sum.count / 2) / sum.count);
+      object.colour = {mean(sum.red), mean(sum.green), mean(sum.blue)};
+    }
+    tracker_.remember(i, object.colour);
+    object.hasSpeed = hasTime;
+    object.speedX = hasTime ? track.speedX : 0;
+    object.speedY = hasTime ? track.speedY : 0;
+    object.ageFrames = track.ageFrames;
+    object.parents = track.parents;
+    object.contour.clear();
+    if (sum.count > 0)
+      traceContour(objects.slots, sum.first, 4 * (graph.size.width + graph.size.height),
+                   object.contour);
+  }
+}
+
+/// A region is of the object that owns most of its cells.
+void CpuObjectStage::nameRegions(const Graph& graph, Objects& objects) {
+  const std::vector<uint16_t>& owner = tracker_.owner();
+  const std::vector<Track>& tracks = tracker_.tracks();
+  firstCell_.assign(tracks.size() + 2, 0);
+  for (const uint16_t track : owner) ++firstCell_[track + 1u];
+  std::partial_sum(firstCell_.begin(), firstCell_.end(), firstCell_.begin());
+  cells_.resize(owner.size());
+  for (size_t cell = 0; cell < owner.size(); ++cell)
+    cells_[firstCell_[owner[cell]]++] = static_cast<uint32_t>(cell);
+
+  votes_.assign(graph.regions.size(), 0);
+  mostVotes_.assign(graph.regions.size(), 0);
+  objects.regionObject.assign(graph.regions.size(), 0);
+  for (size_t t = 0; t < tracks.size(); ++t) {
+    const auto forCells = [&](auto&& visit) {
+      for (uint32_t i = firstCell_[t]; i < firstCell_[t + 1]; ++i)
+        if (const uint16_t label = labelAt(*graph.labels, cells_[i])) visit(label - 1u);
+    };
+    forCells([&](uint32_t region) { ++votes_[region]; });
+    forCells([&](uint32_t region) {
+      if (votes_[region] > mostVotes_[region]) {
+        mostVotes_[region] = votes_[region];
+        objects.regionObject[region] = tracks[t].id;
+      }
+      votes_[region] = 0;
+    });
+  }
+}
+
+uint16_t CpuObjectStage::labelAt(const Labels& labels, uint32_t cell) const {
+  const auto width = static_cast<uint32_t>(evidence_.grid.width);
+  const Point p =
+      evidence_.middleOf(static_cast<int>(cell % width), static_cast<int>(cell / width));
+  return labels.ids.at(p.x, p.y);
+}
+
+Result<std::shared_ptr<const Objects>> CpuObjectStage::process(std::shared_ptr<const Motion> motion,
+                                                               const ObjectParams& params,
+                                                               FrameTime time) {
+  const std::shared_ptr<Objects> objects = pool_.take();
+  objects->size = motion->size;
+  objects->objects.clear();
+  objects->events.clear();
+  objects->regionObject.clear();
+  objects->cameraDx = objects->cameraDy = 0;
+  const TrackerParams tracking{
+      static_cast<int64_t>(std::clamp(params.maxLostTimeS, 0.0, 3600.0) * 1e9),
+      static_cast<uint32_t>(std::lround(std::clamp(params.minObjectArea, 0.0, 100.0) / 100 *
+                                        static_cast<double>(motion->size.area())))};
+  const int64_t stepNs = stepTo(time);
+  const std::shared_ptr<const Graph> graph = motion->graph;
+  // prmmotion skips the first frame of all; its regions are there nevertheless.
+  const bool hasRegions = graph && graph->labels && graph->status != Status::Skipped;
+  objects->status = hasRegions ? graph->status : Status::Skipped;
+  objects->motion = motion;
+  if (!hasRegions) {
+    tracker_.predict(stepNs, tracking);
+    objects->events = tracker_.events();
+    objects->slots.resize(motion->size);
+    objects->slots.fill(0);
+    return std::shared_ptr<const Objects>(objects);
+  }
+  mergeRegions(*motion, params, *objects);
+  gather(*graph, groupOf_, isBackground_, evidence_);
+  tracker_.update(evidence_, groups_, stepNs, tracking);
+  paint(*graph, *objects);
+  describe(*graph, time.isKnown, *objects);
+  nameRegions(*graph, *objects);
+  objects->events = tracker_.events();
+  const Foreground* foreground = graph->labels->foreground.get();
+  if (foreground && foreground->scene.event != SceneEvent::None)
+    objects->events.push_back({EventKind::SceneChanged, {}});
+  return std::shared_ptr<const Objects>(objects);
+}
+
+}  // namespace
+
+std::unique_ptr<ObjectStage> makeObjectStage(Context) {
+  return std::make_unique<CpuObjectStage>();
+}
+
+}  // namespace rg

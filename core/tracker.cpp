@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "core/tracker.hpp"
+
+#include "core/pixel.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+
+namespace rg {
+namespace {
+
+constexpr int64_t kSecondUs = 1'000'000;
+constexpr int kUnit = kPositionUnit;
+constexpr uint32_t kTrustedSamples = 4;
+
+int32_t toInt(int64_t value) {
+  return static_cast<int32_t>(std::clamp<int64_t>(value, INT32_MIN / 4, INT32_MAX / 4));
+}
+
+/// Gains in 1/16 of how far a sighting moves position and speed.
+struct Gains {
+  int position, speed;
+};
+
+Gains gainsOf(const Track& track, bool isWhole) {
+  if (track.hits <= 2) return {16, 14};
+  if (track.hits <= 4) return {14, 8};
+  return isWhole ? Gains{11, 4} : Gains{8, 2};
+}
+
+/// How much of what is usually foreground in its box a track owns, in 1/256.
+uint32_t supportOf(const Track& track, const Sighting& s) {
+  const uint64_t usual = uint64_t{s.boxCells} * track.fill;
+  return usual == 0 ? 0 : static_cast<uint32_t>(uint64_t{s.cells} * 256 * 256 / usual);
+}
+
+}  // namespace
+
+Box Track::box() const {
+  const auto px = [](int64_t v) { return static_cast<int>(divideRounded(v, kUnit)); };
+  const int width = std::max(1, px(size.width)), height = std::max(1, px(size.height));
+  return {px(int64_t{x} - size.width / 2), px(foot) - height, width, height};
+}
+
+void Tracker::reset(bool isNewScene) {
+  for (const Track& track : tracks_)
+    if (track.isConfirmed) ended_.push_back(track.id);
+  tracks_.clear();
+  if (isNewScene) scale_.reset({});
+}
+
+void Tracker::advance(Track& track, int64_t stepNs) const {
+  const Extent before = scale_.at(track.foot / kUnit);
+  track.x = toInt(track.x + int64_t{track.speedX} * (stepNs / 1000) / kSecondUs);
+  track.foot = toInt(track.foot + int64_t{track.speedY} * (stepNs / 1000) / kSecondUs);
+  track.ageNs += stepNs;
+  ++track.ageFrames;
+  if (before.height == 0) return;
+  const Extent after = scale_.at(track.foot / kUnit);
+  track.size.width = toInt(int64_t{track.size.width} * after.width / before.width);
+  track.size.height = toInt(int64_t{track.size.height} * after.height / before.height);
+}
+
+void Tracker::predict(int64_t stepNs, const TrackerParams& params) {
+  events_.clear();
+  owner_.clear();
+  for (Track& track : tracks_) {
+    advance(track, stepNs);
+    track.isSeen = false;
+    track.unseenNs += stepNs;
+  }
+  settle(stepNs, params);
+}
+
+void Tracker::update(const Evidence& evidence, std::span<const Group> groups, int64_t stepNs,
+                     const TrackerParams& params) {
+  events_.clear();
+  if (frame_ != evidence.frame) {
+    frame_ = evidence.frame;
+    scale_.reset(frame_);
+  }
+  stepPx_ = evidence.stepPx;
+  for (Track& track : tracks_) advance(track, stepNs);
+  lookForTracks(evidence);
+  giveGroups(evidence, groups);
+  sight(evidence, groups);
+  for (size_t i = 0; i < tracks_.size(); ++i) correct(i, stepNs);
+  findNewcomers(evidence, params);
+  rejoin();
+  for (size_t i = 0; i < sightings_.size(); ++i) learnSize(i, evidence);
+  settle(stepNs, params);
+}
+
+void Tracker::lookForTracks(const Evidence& e) {
+  tasks_.clear();
+  taskTrack_.clear();
+  std::vector<size_t>& order = taskTrack_;
+  for (size_t i = 0; i < tracks_.size(); ++i)
+    if (tracks_[i].state != ObjectState::Lost) order.push_back(i);
+  const auto tierOf = [](const Track& t) { return t.unseenNs > 0 ? 2 : t.isConfirmed ? 0 : 1; };
+  std::sort(order.begin(), order.end(), [&](size_t a, size_t b) {
+    const Track &p = tracks_[a], &q = tracks_[b];
+    return std::tuple(tierOf(p), -p.foot, p.id) < std::tuple(tierOf(q), -q.foot, q.id);
+  });
+  const int cell = e.stepPx * kUnit;
+  for (const size_t i : order) {
+    const Track& track = tracks_[i];
+    FitTask task;
+    const auto cells = [&](int64_t v) { return static_cast<int>(divideRounded(v, cell)); };
+    const int width = std::clamp(cells(track.size.width), 1, 2 * e.grid.width);
+    const int height = std::clamp(cells(track.size.height), 1, 2 * e.grid.height);
+    task.expected = {cells(int64_t{track.x} - track.size.width / 2), cells(track.foot) - height,
+                     width, height};
+    task.reachX = std::max(1, track.hits < 3 ? width : width / 2);
+    task.reachY = std::max(1, track.hits < 3 ? height / 3 : height / 5);
+    task.tier = tierOf(track);
+    for (int bin = 0; bin < kColourBins && track.look.frames > 0; ++bin) {
+      const int share = shareOf(track.look, bin);
+      task.bonus[static_cast<size_t>(bin)] = share > kFullMatch / 12    ? 2
+                                             : share > kFullMatch / 32  ? 1
+                                             : share > kFullMatch / 100 ? 0
+                                                                        : -1;
+    }
+    tasks_.push_back(task);
+  }
+  fitBoxes(e, tasks_, fitScratch_);
+  assignCells(e, tasks_, owner_);
+  for (uint16_t& owner : owner_)
+    if (owner != 0) owner = static_cast<uint16_t>(taskTrack_[owner - 1u] + 1);
+  sightings_.assign(tracks_.size(), {});
+  for (size_t t = 0; t < tasks_.size(); ++t) sightings_[taskTrack_[t]].task = static_cast<int>(t);
+}
+
+/// What sticks out of a fitted box (an arm, a long stride) goes with its group, when most of the
+/// group belongs to one track.
+void Tracker::giveGroups(const Evidence& e, std::span<const Group> groups) {
+  struct Claim {
+    uint32_t cells = 0;
+    uint16_t track = 0;
+  };
+  static thread_local std::vector<Claim> claims;
+  static thread_local std::vector<uint32_t> counts;
+  claims.assign(groups.size(), {});
+  counts.assign(groups.size(), 0);
+  for (size_t t = 0; t < tasks_.size(); ++t) {
+    const auto mine = static_cast<uint16_t>(taskTrack_[t] + 1);
+    const Box box = intersect(tasks_[t].fitted, boundsOf(e.grid));
+    const auto forMine = [&](auto&& visit) {
+      for (int y = box.y; y < box.bottom(); ++y)
+        for (int x = box.x; x < box.right(); ++x)
+          if (owner_[e.at(x, y)] == mine) visit(e.group[e.at(x, y)] - 1u);
+    };
+    forMine([&](uint32_t group) { ++counts[group]; });
+    forMine([&](uint32_t group) {
+      if (counts[group] > claims[group].cells) claims[group] = {counts[group], mine};
+      counts[group] = 0;
+    });
+  }
+  for (size_t t = 0; t < tasks_.size(); ++t) {
+    const auto mine = static_cast<uint16_t>(taskTrack_[t] + 1);
+    const Box& fitted = tasks_[t].fitted;
+    const int side = std::max(1, fitted.width / 3), above = std::max(1, fitted.height / 6);
+    const Box near = intersect(
+        {fitted.x - side, fitted.y - above, fitted.width + 2 * side, fitted.height + 2 * above},
+        boundsOf(e.grid));
+    for (int y = near.y; y < near.bottom(); ++y)
+      for (int x = near.x; x < near.right(); ++x) {
+        const size_t cell = e.at(x, y);
+        if (e.group[cell] == 0 || owner_[cell] != 0) continue;
+        const uint32_t group = e.group[cell] - 1u;
+        if (claims[group].track == mine && 2 * claims[group].cells >= e.cellsOf[group])
+          owner_[cell] = mine;
+      }
+  }
+  for (size_t g = 0; g < groups.size(); ++g) {
+    if (claims[g].track == 0 || 5 * claims[g].cells < 3 * e.cellsOf[g]) continue;
+    Sighting& s = sightings_[claims[g].track - 1u];
+    s.box = unite(s.box, groups[g].box);
+  }
+}
+
+void Tracker::sight(const Evidence& e, std::span<const Group>) {
+  for (size_t i = 0; i < tracks_.size(); ++i) {
+    Sighting& s = sightings_[i];
+    if (s.task < 0) continue;
+    const Box& fitted = tasks_[static_cast<size_t>(s.task)].fitted;
+    const Box box = intersect(fitted, boundsOf(e.grid));
+    for (int y = box.y; y < box.bottom(); ++y)
+      for (int x = box.x; x < box.right(); ++x) {
+        const uint16_t owner = owner_[e.at(x, y)];
+        ++s.boxCells;
+        if (owner == i + 1) {
+          ++s.cells;
+          ++s.look.bins[static_cast<size_t>((y - fitted.y) * kBodyBands / fitted.height)]
+                       [e.bin[e.at(x, y)]];
+        } else if (owner != 0) {
+          ++s.othersCells;
+        }
+      }
+    const Track& track = tracks_[i];
+    const int64_t height = s.box.height * int64_t{kUnit}, width = s.box.width * int64_t{kUnit};
+    const bool isFree = track.sizeSamples < kTrustedSamples && !scale_.isUniform();
+    const bool isHigh =
+        isFree ? 2 * height >= track.size.height && height <= 2 * track.size.height
+               : 4 * height >= 3 * track.size.height && 4 * height <= 5 * track.size.height;
+    const bool isWide = isFree ? 2 * width >= track.size.width && width <= 2 * track.size.width
+                               : 2 * width >= track.size.width && 2 * width <= 3 * track.size.width;
+    s.isWhole = isHigh && isWide && 5 * s.othersCells < s.boxCells;
+  }
+}
+
+/// Moves a track to where it was seen.
+void Tracker::correct(size_t index, int64_t stepNs) {
+  Track& track = tracks_[index];
+  const Sighting& s = sightings_[index];
+  const bool wasSeen = track.unseenNs == 0;
+  track.isSeen = s.task >= 0 && s.cells > 0 && supportOf(track, s) >= (wasSeen ? 77u : 128u);
+  if (!track.isSeen) {
+    track.unseenNs += stepNs;
+    return;
+  }
+  const FitTask& task = tasks_[static_cast<size_t>(s.task)];
+  int64_t x = track.x, foot = track.foot;
+  if (s.isWhole) {
+    const int64_t left = int64_t{s.box.x} * kUnit, right = int64_t{s.box.right()} * kUnit;
+    const int64_t top = int64_t{s.box.y} * kUnit, bottom = int64_t{s.box.bottom()} * kUnit;
+    x = (left + right) / 2;
+    if (s.box.x <= 0 && s.box.right() < frame_.width) x = right - track.size.width / 2;
+    if (s.box.x > 0 && s.box.right() >= frame_.width) x = left + track.size.width / 2;
+    foot = (top + bottom + track.size.height) / 2;
+    if (s.box.bottom() >= frame_.height) foot = top + track.size.height;
+    if (s.box.y <= 0) foot = bottom;
+  } else {
+    x += int64_t{task.fitted.x - task.expected.x} * stepPx_ * kUnit;
+    foot += int64_t{task.fitted.y - task.expected.y} * stepPx_ * kUnit;
+  }
+  const Gains gains = gainsOf(track, s.isWhole);
+  const int64_t sinceUs = std::max<int64_t>((track.unseenNs + stepNs) / 1000, 1000);
+  const int64_t offX = x - track.x, offFoot = foot - track.foot;
+  track.x = toInt(track.x + offX * gains.position / 16);
+  track.foot = toInt(track.foot + offFoot * gains.position / 16);
+  track.speedX = toInt(track.speedX + offX * gains.speed * kSecondUs / 16 / sinceUs);
+  track.speedY = toInt(track.speedY + offFoot * gains.speed * kSecondUs / 16 / sinceUs);
+  track.unseenNs = 0;
+  ++track.hits;
+  if (s.isWhole || track.look.frames < 4) learn(track.look, s.look);
+}
+
+}  // namespace rg

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Objects over time: each keeps its number while it moves, stops, is hidden, or shares a blob.
+//
+// Every frame, tracks are predicted, boxes of their size are fitted to the foreground together
+// (core/box_fit.hpp), what is left over becomes newcomers, and newcomers that look like a track
+// that is missing are that track.
+//
+// Determinism: integers. Tracks are sorted by id; every choice has a key that ends in an id or a
+// raster position.
+#pragma once
+
+#include "core/appearance.hpp"
+#include "core/assignment.hpp"
+#include "core/box_fit.hpp"
+#include "core/evidence.hpp"
+#include "core/objects.hpp"
+#include "core/scene_scale.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace rg {
+
+/// One object's history. Positions in 1/16 px, of the middle of the box's lower edge (the foot).
+struct Track {
+  uint64_t id = 0;
+  ObjectState state = ObjectState::New;
+  int32_t x = 0, foot = 0;
+  int32_t speedX = 0, speedY = 0;  ///< 1/16 px per second.
+  Extent size;
+  Look look;
+  Colour colour;
+  std::vector<uint64_t> parents;
+  int64_t unseenNs = 0;  ///< Since it was last seen.
+  int64_t ageNs = 0;
+  int64_t stillNs = 0;                ///< Since it last left its place.
+  int32_t stillX = 0, stillFoot = 0;  ///< That place.
+  uint32_t ageFrames = 0;
+  uint32_t hits = 0;                    ///< Frames in which it was seen.
+  uint32_t sizeSamples = 0;             ///< Frames in which all of it was seen.
+  int32_t learntX = 0, learntFoot = 0;  ///< Where the scene's scale last learnt from it.
+  uint16_t fill = 150;                  ///< Share of its box that is foreground, in 1/256.
+  bool isSeen = false;                  ///< In this frame.
+  bool isConfirmed = false;
+
+  [[nodiscard]] Box box() const;  ///< In pixels.
+};
+
+struct TrackerParams {
+  int64_t maxLostNs = 2'000'000'000;
+  uint32_t minAreaPx = 0;  ///< 0 = learnt from the scene.
+};
+
+/// What the fit says of a track in this frame.
+struct Sighting {
+  int task = -1;             ///< −1: it was not looked for.
+  uint32_t cells = 0;        ///< That it owns.
+  uint32_t boxCells = 0;     ///< Of its fitted box within the frame.
+  uint32_t othersCells = 0;  ///< Of its fitted box that other tracks own.
+  bool isWhole = false;      ///< `box` shows all of it.
+  Box box;                   ///< Pixels, around the groups that it owns.
+  LookCounts look;
+};
+
+/// Foreground that no track explains and that is large enough to be something.
+struct Newcomer {
+  Box box;  ///< In pixels.
+  uint32_t cells = 0;
+  uint64_t parent = 0;  ///< Id of the track whose blob it comes out of, 0 = none.
+  bool isAtBorder = false;
+  LookCounts look;
+  Look appearance;
+};
+
+class Tracker {
+ public:
+  /// Ends all tracks; the next update's events tell. Also forgets the scene's scale if isNewScene.
+  void reset(bool isNewScene);
+  /// A frame that shows nothing: tracks move on as they are expected to.
+  void predict(int64_t stepNs, const TrackerParams& params);
+  void update(const Evidence& evidence, std::span<const Group> groups, int64_t stepNs,
+              const TrackerParams& params);
+
+  [[nodiscard]] const std::vector<Track>& tracks() const { return tracks_; }
+  /// Of each cell of the evidence: 1 + index of the track, 0 = none.
+  [[nodiscard]] const std::vector<uint16_t>& owner() const { return owner_; }
+  [[nodiscard]] const std::vector<Event>& events() const { return events_; }
+  void remember(size_t index, Colour colour) { tracks_[index].colour = colour; }
+  [[nodiscard]] const SceneScale& scale() const { return scale_; }
+
+ private:
+  void advance(Track& track, int64_t stepNs) const;
+  void lookForTracks(const Evidence& evidence);
+  void giveGroups(const Evidence& evidence, std::span<const Group> groups);
+  void sight(const Evidence& evidence, std::span<const Group> groups);
+  void findNewcomers(const Evidence& evidence, const TrackerParams& params);
+  void describeNewcomers(const Evidence& evidence);
+  void dropSmall(const Evidence& evidence, const TrackerParams& params);
+  void rejoin();
+  [[nodiscard]] int64_t rejoinCost(const Track& track, const Newcomer& newcomer) const;
+  static void comeBack(Track& track, const Newcomer& newcomer);
+  void correct(size_t index, int64_t stepNs);
+  void learnSize(size_t index, const Evidence& evidence);
+  void begin(const Newcomer& newcomer);
+  [[nodiscard]] bool isCovered(const Track& track) const;
+  void settleState(Track& track, int64_t stepNs) const;
+  void settle(int64_t stepNs, const TrackerParams& params);
+
+  std::vector<Track> tracks_;
+  std::vector<Event> events_;
+  std::vector<uint64_t> ended_;  ///< By a reset, not told yet.
+  SceneScale scale_;
+  uint64_t nextId_ = 1;
+  Size frame_;
+  int stepPx_ = 1;
+
+  std::vector<Sighting> sightings_;  ///< Of tracks_.
+  std::vector<FitTask> tasks_;
+  std::vector<size_t> taskTrack_;
+  std::vector<uint16_t> owner_;
+  FitScratch fitScratch_;
+  std::vector<Piece> pieces_;
+  PieceScratch pieceScratch_;
+  std::vector<Newcomer> newcomers_;
+  std::vector<int> newcomerOf_;  ///< Of each piece, −1 = none.
+  std::vector<int> trackOfNewcomer_;
+  std::vector<uint32_t> touching_;
+  std::vector<uint16_t> trackIndex_;
+  std::vector<int64_t> costs_;
+  Assignment assignment_;
+};
+
+}  // namespace rg

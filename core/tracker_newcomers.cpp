@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The foreground that no track explains: noise, a new object, or one that was lost.
+#include "core/pixel.hpp"
+#include "core/tracker.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+namespace rg {
+namespace {
+
+constexpr int kUnit = kPositionUnit;
+constexpr size_t kMaxTracks = 256;  // Together with kMaxNewcomers bounds a frame of noise.
+constexpr size_t kMaxNewcomers = 128;
+
+Box toPixels(const Box& cells, int stepPx, Size frame) {
+  return intersect(
+      {cells.x * stepPx, cells.y * stepPx, cells.width * stepPx, cells.height * stepPx},
+      boundsOf(frame));
+}
+
+bool touchesBorder(const Box& box, Size frame) {
+  return box.x <= 0 || box.y <= 0 || box.right() >= frame.width || box.bottom() >= frame.height;
+}
+
+/// Pieces of one body lie above each other: they share most of their columns, the gap between them
+/// is short and together they are no higher than one thing.
+bool belongTogether(const Newcomer& a, const Newcomer& b, const SceneScale& scale) {
+  const int shared = std::min(a.box.right(), b.box.right()) - std::max(a.box.x, b.box.x);
+  if (2 * shared < std::min(a.box.width, b.box.width)) return false;
+  const Box both = unite(a.box, b.box);
+  const int gap = std::max(a.box.y, b.box.y) - std::min(a.box.bottom(), b.box.bottom());
+  if (!scale.isKnown()) return 4 * gap <= std::max(a.box.height, b.box.height);
+  const Extent expected = scale.at(both.bottom());
+  return 4 * gap * kUnit <= expected.height && 5 * expected.height >= 4 * both.height * kUnit &&
+         2 * both.width * kUnit <= 3 * expected.width;
+}
+
+}  // namespace
+
+void Tracker::findNewcomers(const Evidence& e, const TrackerParams& params) {
+  findPieces(e, owner_, pieceScratch_, pieces_);
+  newcomers_.clear();
+  newcomerOf_.assign(pieces_.size(), -1);
+  // Large pieces first, so that the limit drops the small ones; specks of a cell or two never
+  // count.
+  std::vector<size_t>& order = taskTrack_;
+  order.clear();
+  for (size_t i = 0; i < pieces_.size(); ++i)
+    if (pieces_[i].cells >= 4) order.push_back(i);
+  std::sort(order.begin(), order.end(), [&](size_t a, size_t b) {
+    return std::tuple(pieces_[b].cells, a) < std::tuple(pieces_[a].cells, b);
+  });
+  if (order.size() > kMaxNewcomers) order.resize(kMaxNewcomers);
+  for (const size_t i : order) {
+    Newcomer piece;
+    piece.box = toPixels(pieces_[i].box, e.stepPx, e.frame);
+    piece.cells = pieces_[i].cells;
+    int host = -1;
+    for (size_t n = 0; n < newcomers_.size() && host < 0; ++n)
+      if (belongTogether(newcomers_[n], piece, scale_)) host = static_cast<int>(n);
+    if (host < 0) {
+      host = static_cast<int>(newcomers_.size());
+      newcomers_.push_back(piece);
+    } else {
+      Newcomer& whole = newcomers_[static_cast<size_t>(host)];
+      whole.box = unite(whole.box, piece.box);
+      whole.cells += piece.cells;
+    }
+    newcomerOf_[i] = host;
+  }
+  describeNewcomers(e);
+  dropSmall(e, params);
+}
+
+/// Looks of the newcomers, and the tracks whose blob they come out of.
+void Tracker::describeNewcomers(const Evidence& e) {
+  touching_.assign(newcomers_.size() * tracks_.size(), 0);
+  for (int y = 0; y < e.grid.height; ++y)
+    for (int x = 0; x < e.grid.width; ++x) {
+      const size_t cell = e.at(x, y);
+      const uint32_t piece = pieceScratch_.label[cell];
+      if (piece == 0 || newcomerOf_[piece - 1] < 0) continue;
+      const auto n = static_cast<size_t>(newcomerOf_[piece - 1]);
+      Newcomer& newcomer = newcomers_[n];
+      const int row = y * e.stepPx + e.stepPx / 2 - newcomer.box.y;
+      const int band = std::clamp(row * kBodyBands / newcomer.box.height, 0, kBodyBands - 1);
+      ++newcomer.look.bins[static_cast<size_t>(band)][e.bin[cell]];
+      for (const Point& d : {Point{1, 0}, Point{-1, 0}, Point{0, 1}, Point{0, -1}}) {
+        if (!boundsOf(e.grid).contains({x + d.x, y + d.y})) continue;
+        const uint16_t owner = owner_[e.at(x + d.x, y + d.y)];
+        if (owner != 0) ++touching_[n * tracks_.size() + owner - 1u];
+      }
+    }
+  for (size_t n = 0; n < newcomers_.size(); ++n) {
+    Newcomer& newcomer = newcomers_[n];
+    newcomer.isAtBorder = touchesBorder(newcomer.box, e.frame);
+    learn(newcomer.appearance, newcomer.look);
+    uint32_t most = 0;
+    for (size_t t = 0; t < tracks_.size(); ++t)
+      if (touching_[n * tracks_.size() + t] > most) {
+        most = touching_[n * tracks_.size() + t];
+        newcomer.parent = tracks_[t].id;
+      }
+  }
+}
+
+/// Drops what is too small to be an object here; what sticks out of a track has to be a whole one.
+void Tracker::dropSmall(const Evidence& e, const TrackerParams& params) {
+  const int64_t cellPx = int64_t{e.stepPx} * e.stepPx;
+  const auto isSmall = [&](const Newcomer& n) {
+    const int64_t areaPx = n.cells * cellPx;
+    if (params.minAreaPx > 0) return areaPx < params.minAreaPx;
+    if (!scale_.isKnown()) {
+      const auto parent = std::find_if(tracks_.begin(), tracks_.end(),
+                                       [&](const Track& t) { return t.id == n.parent; });
+      if (parent != tracks_.end() &&
+          areaPx * 2 * kUnit * kUnit * 256 <
+              int64_t{parent->size.width} * parent->size.height * parent->fill)
+        return true;
+      return areaPx * 3000 < e.frame.area();
+    }
+    const Extent expected = scale_.at(n.box.bottom());
+    const int64_t usual = int64_t{expected.width} * expected.height / (kUnit * kUnit);
+    const int64_t height = n.box.height * int64_t{kUnit}, width = n.box.width * int64_t{kUnit};
+    if (n.isAtBorder) return 8 * areaPx < usual || 3 * height < expected.height;
+    if (n.parent != 0)
+      return 3 * areaPx < usual || 5 * height < 3 * expected.height || 2 * width < expected.width;
+    return 5 * areaPx < usual || 2 * height < expected.height || 5 * width < 2 * expected.width;
+  };
+  // Kept in place: newcomerOf_ points here.
+  for (Newcomer& newcomer : newcomers_)
+    if (isSmall(newcomer)) newcomer.cells = 0;
+}
+
+/// Gives newcomers to the tracks that are missing and look like them; the others begin tracks.
+void Tracker::rejoin() {
+  std::vector<size_t>& missing = taskTrack_;
+  missing.clear();
+  for (size_t i = 0; i < tracks_.size(); ++i)
+    if (!tracks_[i].isSeen) missing.push_back(i);
+  constexpr int64_t kLeaveOut = 1300;
+  costs_.assign(missing.size() * newcomers_.size(), kForbidden);
+  for (size_t m = 0; m < missing.size(); ++m)
+    for (size_t n = 0; n < newcomers_.size(); ++n)
+      if (newcomers_[n].cells > 0)
+        costs_[m * newcomers_.size() + n] = rejoinCost(tracks_[missing[m]], newcomers_[n]);
+  assignment_.solve(costs_, static_cast<int>(missing.size()), static_cast<int>(newcomers_.size()),
+                    kLeaveOut);
+  trackOfNewcomer_.assign(newcomers_.size(), -1);
+  for (size_t m = 0; m < missing.size(); ++m) {
+    const int n = assignment_.columnOf(static_cast<int>(m));
+    if (n < 0) continue;
+    comeBack(tracks_[missing[m]], newcomers_[static_cast<size_t>(n)]);
+    trackOfNewcomer_[static_cast<size_t>(n)] = static_cast<int>(missing[m]);
+  }
+  for (size_t n = 0; n < newcomers_.size(); ++n) {
+    if (newcomers_[n].cells == 0 || trackOfNewcomer_[n] >= 0 || tracks_.size() >= kMaxTracks)
+      continue;
+    trackOfNewcomer_[n] = static_cast<int>(tracks_.size());
+    begin(newcomers_[n]);
+  }
+  for (size_t cell = 0; cell < owner_.size(); ++cell) {
+    const uint32_t piece = pieceScratch_.label[cell];
+    if (piece == 0 || newcomerOf_[piece - 1] < 0) continue;
+    const int track = trackOfNewcomer_[static_cast<size_t>(newcomerOf_[piece - 1])];
+    if (track >= 0) owner_[cell] = static_cast<uint16_t>(track + 1);
+  }
+}
+
+/// 0 … 2000, or kForbidden: how unlikely it is that the newcomer is the track that is missing.
+int64_t Tracker::rejoinCost(const Track& track, const Newcomer& newcomer) const {
+  const int64_t x = (2 * int64_t{newcomer.box.x} + newcomer.box.width) * kUnit / 2;
+  const int64_t foot = int64_t{newcomer.box.bottom()} * kUnit;
+  const int64_t dx = x - track.x, dy = foot - track.foot;
+  const uint32_t far = integerSqrt(static_cast<uint64_t>(dx * dx + dy * dy));
+  // Half its height away at once, and with every second unseen one and a half heights more.
+  const int64_t gate = std::max<int64_t>(
+      1, track.size.height / 2 + track.size.height * (track.unseenNs / 1'000'000) * 3 / 2000);
+  if (far > gate) return kForbidden;
+  const int64_t height = int64_t{newcomer.box.height} * kUnit;
+  if (!newcomer.isAtBorder && (2 * height < track.size.height || height > 2 * track.size.height))
+    return kForbidden;
+  const int alike = similarity(track.look, newcomer.appearance);
+  if (track.isConfirmed && 5 * alike < 2 * kFullMatch) return kForbidden;
+  return 1000 * int64_t{far} / gate + 1000 - 1000 * int64_t{alike} / kFullMatch;
+}
+
+void Tracker::comeBack(Track& track, const Newcomer& newcomer) {
+  const int64_t x = (2 * int64_t{newcomer.box.x} + newcomer.box.width) * kUnit / 2;
+  const int64_t foot = int64_t{newcomer.box.bottom()} * kUnit;
+  const int64_t sinceUs = std::max<int64_t>(track.unseenNs / 1000, 1000);
+  if (track.hits <= 2) {
+    track.speedX += static_cast<int32_t>((x - track.x) * 1'000'000 / sinceUs);
+    track.speedY += static_cast<int32_t>((foot - track.foot) * 1'000'000 / sinceUs);
+  }
+  track.x = static_cast<int32_t>(x);
+  track.foot = static_cast<int32_t>(foot);
+  track.isSeen = true;
+  track.unseenNs = 0;
+  ++track.hits;
+}
+
+void Tracker::begin(const Newcomer& newcomer) {
+  Track track;
+  track.id = nextId_++;
+  track.x = (2 * newcomer.box.x + newcomer.box.width) * kUnit / 2;
+  track.foot = newcomer.box.bottom() * kUnit;
+  track.size = {newcomer.box.width * kUnit, newcomer.box.height * kUnit};
+  if (scale_.isUniform()) {
+    const Extent expected = scale_.at(newcomer.box.bottom());
+    const bool isUsual =
+        2 * track.size.width <= 3 * expected.width && 5 * track.size.height <= 7 * expected.height;
+    if (isUsual) track.size = expected;
+  }
+  if (newcomer.parent != 0) track.parents.push_back(newcomer.parent);
+  track.stillX = track.learntX = track.x;
+  track.stillFoot = track.learntFoot = track.foot;
+  track.look = newcomer.appearance;
+  track.isSeen = true;
+  track.hits = 1;
+  track.ageFrames = 1;
+  tracks_.push_back(std::move(track));
+}
+
+}  // namespace rg
