@@ -69,7 +69,8 @@ def main():
                      for error in validator.iter_errors(line)]
         findings += [f'line {number}: the schema accepts a line with this fault: {what}'
                      for what, bad in spoilt(line) if validator.is_valid(bad)]
-    if len({len(line['objects']) for line in lines}) < 2 or not any('utc' in line for line in lines):
+    counts = {len(line['objects']) for line in lines}
+    if len(counts) < 2 or not any('utc' in line for line in lines):
         findings.append('the lines do not show all that the writer can do')
     print('\n'.join(findings) or f'{len(lines)} lines agree with {schema["$id"]}')
     sys.exit(bool(findings))

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "tests/benchmarks/options.hpp"
+
+#include <charconv>
+#include <optional>
+#include <string_view>
+
+namespace rg::bench {
+namespace {
+
+constexpr int kMaxSide = 16384;
+
+/// The whole text as a number from `least` to `most`.
+std::optional<int> number(std::string_view text, int least, int most) {
+  int value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool isGood = error == std::errc{} && end == text.data() + text.size();
+  return isGood && value >= least && value <= most ? std::optional(value) : std::nullopt;
+}
+
+bool setSize(Size& size, std::string_view text) {
+  const size_t cross = text.find('x');
+  if (cross == std::string_view::npos) return false;
+  const auto width = number(text.substr(0, cross), 1, kMaxSide);
+  const auto height = number(text.substr(cross + 1), 1, kMaxSide);
+  if (width && height) size = {*width, *height};
+  return width && height;
+}
+
+struct NumberOption {
+  std::string_view name;
+  int Options::*field;
+  int least, most;
+};
+constexpr NumberOption kNumbers[] = {{"--regions", &Options::regions, 1, 65535},
+                                     {"--shift", &Options::shiftPx, 1, 64},
+                                     {"--threads", &Options::threads, 0, 1024},
+                                     {"--frames", &Options::frames, 1, 1000000}};
+
+bool isKnown(std::string_view name) {
+  for (const NumberOption& option : kNumbers)
+    if (option.name == name) return true;
+  return name == "--input" || name == "--size";
+}
+
+bool set(Options& options, std::string_view name, std::string_view value) {
+  if (name == "--input") options.input = value;
+  if (name == "--input") return !value.empty();
+  if (name == "--size") return setSize(options.size, value);
+  for (const NumberOption& option : kNumbers) {
+    if (option.name != name) continue;
+    const auto parsed = number(value, option.least, option.most);
+    if (parsed) options.*option.field = *parsed;
+    return parsed.has_value();
+  }
+  return false;
+}
+
+}  // namespace
+
+Result<Options> parseOptions(std::span<const char* const> arguments) {
+  Options options;
+  bool hasSize = false;
+  for (size_t i = 0; i < arguments.size(); ++i) {
+    const std::string name = arguments[i];
+    if (name == "--help" || name == "-h") {
+      options.asksHelp = true;
+      return options;
+    }
+    if (!isKnown(name)) return Error{"unknown option: " + name};
+    if (++i == arguments.size()) return Error{name + " needs a value"};
+    if (!set(options, name, arguments[i]))
+      return Error{name + " can't be " + std::string(arguments[i])};
+    hasSize = hasSize || name == "--size";
+  }
+  if (hasSize && !options.input.empty()) return Error{"--size is for the synthetic scene"};
+  return options;
+}
+
+std::string usage(const std::string& program) {
+  return "usage: " + program +
+         " [--input FILE.y4m | --size WxH] [--regions N] [--shift R] [--threads T] [--frames N]\n"
+         "  --input    frames to measure on (default: a synthetic scene)\n"
+         "  --size     of the synthetic scene (default 640x480)\n"
+         "  --regions  in the scene, and at most in the segmentation (default 160)\n"
+         "  --shift    largest motion searched, in pixels (default 20)\n"
+         "  --threads  0 = all cores (default 0)\n"
+         "  --frames   measured after a warm-up (default 50)\n";
+}
+
+}  // namespace rg::bench

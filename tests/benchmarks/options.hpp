@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The command line that bench and bench-peers share.
+#pragma once
+
+#include "core/geometry.hpp"
+#include "core/result.hpp"
+
+#include <span>
+#include <string>
+
+namespace rg::bench {
+
+/// Frames before those that are measured: the background model is learnt by then.
+inline constexpr int kWarmUpFrames = 60;
+
+struct Options {
+  std::string input;      ///< A .y4m file; empty = the synthetic scene.
+  Size size{640, 480};    ///< Of the synthetic scene.
+  int regions = 160;      ///< In the synthetic scene, and the most that hsvsegment may make.
+  int shiftPx = 20;       ///< Searched by prmmotion; things in the scene move by up to half of it.
+  int threads = 0;        ///< 0 = all cores.
+  int frames = 50;        ///< Measured, after a warm-up.
+  bool asksHelp = false;  ///< Print the usage and do nothing.
+};
+
+/// Errors name the option that is unknown, lacks its value or is out of range.
+[[nodiscard]] Result<Options> parseOptions(std::span<const char* const> arguments);
+
+[[nodiscard]] std::string usage(const std::string& program);
+
+}  // namespace rg::bench

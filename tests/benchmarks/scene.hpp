@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Frames to measure on: a scene with known numbers of regions and speeds, or a .y4m file.
+#pragma once
+
+#include "core/frame.hpp"
+#include "core/result.hpp"
+#include "tests/benchmarks/options.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace rg::bench {
+
+/// A frame with its memory: packed BGR from the synthetic scene, I420 or grey from a file.
+struct RawFrame {
+  FrameLayout layout;
+  std::vector<uint8_t> bytes;  ///< The planes one after the other, rows without padding.
+
+  [[nodiscard]] Frame view() const;
+};
+
+class FrameSource {
+ public:
+  virtual ~FrameSource() = default;
+  /// Overwrites `frame` with the next one. A file starts again after its last frame.
+  [[nodiscard]] virtual Result<bool> next(RawFrame& frame) = 0;
+};
+
+/// The synthetic scene: three quarters of the regions are tiles of a still background, the others
+/// bodies of two colours that cross it at constant speeds of up to half of shiftPx per frame.
+/// Every pixel has noise of up to two grey levels. The same frames on every machine.
+[[nodiscard]] std::unique_ptr<FrameSource> makeScene(const Options& options);
+
+/// YUV4MPEG2 with 4:2:0 or mono planes of 8 bits.
+[[nodiscard]] Result<std::unique_ptr<FrameSource>> openY4m(const std::string& path);
+
+/// One or the other, as the options say.
+[[nodiscard]] Result<std::unique_ptr<FrameSource>> openSource(const Options& options);
+
+}  // namespace rg::bench

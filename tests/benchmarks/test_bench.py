@@ -1,0 +1,79 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""bench and bench-peers print what they promise, read .y4m files and refuse what they don't know.
+
+usage: test_bench.py PROGRAM LAST_LINE...      LAST_LINE: names of the sums that PROGRAM ends with
+"""
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+PROGRAM, SUMS = sys.argv[1], sys.argv[2:]
+QUICK = ('--frames', '2', '--threads', '1')
+
+
+def bench(*arguments):
+    done = subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=120)
+    return done.returncode, done.stdout.splitlines(), done.stderr
+
+
+def y4m(folder, header, frame):
+    path = pathlib.Path(folder, 'clip.y4m')
+    path.write_bytes(header.encode() + b'\n' + (b'FRAME\n' + frame) * 3)
+    return str(path)
+
+
+class Bench(unittest.TestCase):
+    def check_sums(self, lines):
+        for name, line in zip(SUMS, lines[-len(SUMS):]):
+            self.assertRegex(line, rf'^{name}=\d+\.\d+$')
+            self.assertGreater(float(line.split('=')[1]), 0)
+
+    def test_times_the_synthetic_scene(self):
+        status, lines, errors = bench('--size', '96x64', '--regions', '20', '--shift', '4', *QUICK)
+        self.assertEqual((status, errors), (0, ''))
+        self.assertTrue(lines[0].startswith('96x64, threads 1, frames 2'), lines[0])
+        self.check_sums(lines)
+
+    def test_sums_contain_every_row_of_the_table(self):
+        _, lines, _ = bench('--size', '96x64', '--frames', '1', '--threads', '1')
+        rows = [float(line.split()[-1]) for line in lines if re.match(r'^\S.*\s\d+\.\d{3}$', line)]
+        self.assertAlmostEqual(sum(rows), float(lines[-1].split('=')[1]), delta=0.01)
+
+    def test_reads_a_file_from_its_start_again(self):
+        with tempfile.TemporaryDirectory() as folder:
+            clip = y4m(folder, 'YUV4MPEG2 W16 H8 F25:1 C420jpeg', bytes(range(192)))
+            status, lines, errors = bench('--input', clip, *QUICK)
+        self.assertEqual((status, errors), (0, ''))
+        self.assertTrue(lines[0].startswith('16x8,'), lines[0])
+        self.check_sums(lines)
+
+    def test_refuses_files_that_it_can_not_read(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for header, frame in (('JPEG', b''), ('YUV4MPEG2 W16 H8 C444', bytes(384)),
+                                  ('YUV4MPEG2 W-16 H8', bytes(192)), ('YUV4MPEG2', b''),
+                                  ('YUV4MPEG2 W16 H8', bytes(3))):
+                status, _, errors = bench('--input', y4m(folder, header, frame), *QUICK)
+                self.assertEqual(status, 1, header)
+                self.assertIn('bench', errors)
+        self.assertEqual(bench('--input', '/does/not/exist.y4m')[0], 1)
+
+    def test_refuses_unknown_options_and_values(self):
+        for wrong in (['--speed', '9'], ['--frames'], ['--frames', '0'], ['--frames', '2x'],
+                      ['--size', '640'], ['--size', '0x480'], ['--threads', '-1'], ['clip.y4m'],
+                      ['--input', 'a.y4m', '--size', '8x8']):
+            status, _, errors = bench(*wrong)
+            self.assertEqual(status, 2, wrong)
+            self.assertIn('usage:', errors)
+
+    def test_explains_itself(self):
+        status, lines, _ = bench('--help')
+        self.assertEqual(status, 0)
+        self.assertTrue(lines[0].startswith('usage: bench'))
+
+
+if __name__ == '__main__':
+    unittest.main(argv=sys.argv[:1])

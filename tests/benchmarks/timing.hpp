@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Times of the steps of a frame, and their medians over the frames.
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace rg::bench {
+
+/// Median of the values, the mean of the middle two where their number is even; 0 of none.
+[[nodiscard]] inline double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  std::sort(values.begin(), values.end());
+  const size_t middle = values.size() / 2;
+  return values.size() % 2 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
+}
+
+/// One row per step, one column per frame.
+class Timings {
+ public:
+  /// Calls step() and books its milliseconds under `name`; steps keep the order of the first frame.
+  template <class Step>
+  decltype(auto) measure(const std::string& name, Step&& step) {
+    const Booking booking{*this, name, std::chrono::steady_clock::now()};
+    return std::forward<Step>(step)();
+  }
+
+  /// Forgets what was measured, so that a warm-up does not count.
+  void clear() { rows_.clear(); }
+
+  void printRows() const {
+    std::printf("%-14s %10s\n", "stage", "median ms");
+    for (const Row& row : rows_) std::printf("%-14s %10.3f\n", row.name.c_str(), median(row.ms));
+  }
+
+  /// Median over the frames of the sum of all rows but `without`.
+  [[nodiscard]] double total(const std::string& without = "") const {
+    std::vector<double> sums;
+    for (const Row& row : rows_) {
+      if (row.name == without) continue;
+      sums.resize(std::max(sums.size(), row.ms.size()));
+      for (size_t i = 0; i < row.ms.size(); ++i) sums[i] += row.ms[i];
+    }
+    return median(std::move(sums));
+  }
+
+ private:
+  struct Row {
+    std::string name;
+    std::vector<double> ms;
+  };
+  struct Booking {
+    Timings& timings;
+    const std::string& name;
+    std::chrono::steady_clock::time_point start;
+    ~Booking() {
+      const std::chrono::duration<double, std::milli> took =
+          std::chrono::steady_clock::now() - start;
+      timings.rowOf(name).ms.push_back(took.count());
+    }
+  };
+
+  Row& rowOf(const std::string& name) {
+    for (Row& row : rows_)
+      if (row.name == name) return row;
+    return rows_.emplace_back(Row{name, {}});
+  }
+
+  std::vector<Row> rows_;
+};
+
+}  // namespace rg::bench
