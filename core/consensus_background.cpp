@@ -206,4 +206,15 @@ void learn(const SmoothPicture& picture, const Verdicts& verdicts, const Distanc
   });
 }
 
+void replaceWhere(ImageView<const uint8_t> places, const SmoothPicture& picture,
+                  const Executor& executor, ConsensusBackground& model) {
+  executor.forRows(picture.size().height, [&](int first, int last) {
+    for (int y = first; y < last; ++y)
+      for (int x = 0; x < picture.size().width; ++x) {
+        if (places.row(y)[x] == 0) continue;
+        for (uint32_t k = 0; k < kSamples; ++k) remember(picture, {x, y}, {x, y}, k, model);
+      }
+  });
+}
+
 }  // namespace rg

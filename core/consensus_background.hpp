@@ -64,4 +64,8 @@ struct Verdicts {
 void learn(const SmoothPicture& picture, const Verdicts& verdicts, const Distances& distances,
            const ConsensusRate& rate, const Executor& executor, ConsensusBackground& model);
 
+/// Forgets what was where `places` is set and remembers the picture instead.
+void replaceWhere(ImageView<const uint8_t> places, const SmoothPicture& picture,
+                  const Executor& executor, ConsensusBackground& model);
+
 }  // namespace rg

@@ -4,6 +4,7 @@
 #include "core/consensus_background.hpp"
 #include "core/mask_cleaning.hpp"
 #include "core/shadow.hpp"
+#include "core/still_parts.hpp"
 
 #include <algorithm>
 
@@ -19,23 +20,32 @@ class HybridBackground final : public BackgroundMethodModel {
   void reset(Reset what) override;
 
  private:
+  bool isFirst(const BackgroundJob& job) const {
+    return frame_ < static_cast<uint32_t>(job.params.trainingFrames);
+  }
   void start(const BackgroundJob& job, Foreground& out);
   void judge(const BackgroundJob& job);
   void clean(const BackgroundJob& job, ImageView<uint8_t> mask);
+  void dissolveGhosts(const BackgroundJob& job, ImageView<uint8_t> mask);
   void learnFrame(const BackgroundJob& job, ImageView<const uint8_t> mask);
 
   SmoothPicture smooth_;
   ConsensusBackground model_;
   Distances distances_;
   Image<uint8_t> radii_, raw_, previousRaw_, strong_;
+  StillPixels still_;
+  Image<uint8_t> ghosts_;
+  StillScratch stillScratch_;
   CleaningScratch scratch_;
   uint32_t frame_ = 0;
 };
 
 void HybridBackground::prepare(const Picture& picture) {
   const Size size = picture.size();
-  for (Image<uint8_t>* image : {&radii_, &raw_, &previousRaw_, &strong_}) image->resize(size);
+  for (Image<uint8_t>* image : {&radii_, &raw_, &previousRaw_, &strong_, &ghosts_})
+    image->resize(size);
   rg::prepare(size, picture.isGrey() ? 1 : 3, model_);
+  rg::prepare(size, picture.isGrey() ? 1 : 3, still_);
 }
 
 void HybridBackground::reset(Reset what) {
@@ -45,6 +55,8 @@ void HybridBackground::reset(Reset what) {
 void HybridBackground::start(const BackgroundJob& job, Foreground& out) {
   fillFrom(smooth_, job.executor, model_);
   previousRaw_.fill(0);
+  still_.ages.fill(0);
+  still_.fresh.fill(0);
   frame_ = 0;
   out.status = Status::Training;
   out.mask.fill(kBackgroundPixel);
@@ -74,11 +86,21 @@ void HybridBackground::clean(const BackgroundJob& job, ImageView<uint8_t> mask) 
   dropSmallParts(mask, std::max(8u, pixels / 4000), scratch_);
 }
 
+void HybridBackground::dissolveGhosts(const BackgroundJob& job, ImageView<uint8_t> mask) {
+  followStill(smooth_, mask, radii_, job.executor, still_);
+  const auto usual = static_cast<int>(std::clamp<int64_t>(job.clock.frames(0.4), 4, 60000));
+  const int leastAge = isFirst(job) ? 4 : usual;
+  if (findGhosts(smooth_, model_, mask, still_, leastAge, stillScratch_, ghosts_) == 0) return;
+  replaceWhere(ghosts_, smooth_, job.executor, model_);
+  for (int y = 0; y < mask.height(); ++y)
+    for (int x = 0; x < mask.width(); ++x)
+      if (ghosts_.row(y)[x] != 0) mask.row(y)[x] = kBackgroundPixel;
+}
+
 void HybridBackground::learnFrame(const BackgroundJob& job, ImageView<const uint8_t> mask) {
-  const bool isFirst = frame_ < static_cast<uint32_t>(job.params.trainingFrames);
   const auto usual =
       std::clamp<int64_t>(job.clock.frames(job.params.learningTimeS) / kSamples, 2, 4096);
-  const ConsensusRate rate{frame_, isFirst ? 3 : static_cast<int>(usual), isFirst};
+  const ConsensusRate rate{frame_, isFirst(job) ? 3 : static_cast<int>(usual), isFirst(job)};
   learn(smooth_, {mask, raw_, previousRaw_}, distances_, rate, job.executor, model_);
   std::swap(raw_, previousRaw_);
 }
@@ -90,6 +112,7 @@ void HybridBackground::segment(const BackgroundJob& job, Foreground& out) {
   ++frame_;
   judge(job);
   clean(job, out.mask);
+  dissolveGhosts(job, out.mask);
   learnFrame(job, out.mask);
 }
 

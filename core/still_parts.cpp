@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "core/still_parts.hpp"
+
+#include "core/pixel.hpp"
+
+#include <algorithm>
+
+namespace rg {
+namespace {
+
+constexpr int64_t kLeastContour = 6;  ///< Contour pixels that a verdict needs.
+constexpr int64_t kLeastShare = 100;  ///< Of 256: share of the contour that must be readable.
+constexpr int64_t kLeastEdge = 12;    ///< Half grey levels by which the model's edge must lead.
+constexpr uint8_t kFreshFrames = 250;
+constexpr int kGhostSamples = 4;  ///< Remembered colours whose mean stands for the model.
+
+uint16_t nextAge(int age, bool isSame) {
+  if (isSame) return static_cast<uint16_t>(std::min(age + 1, 65535));
+  return static_cast<uint16_t>(std::max(0, age - 1 - age / 4));
+}
+
+void followRow(const SmoothPicture& picture, const uint8_t* foreground, const uint8_t* radii, int y,
+               StillPixels& still) {
+  uint16_t* ages = still.ages.row(y);
+  uint8_t* fresh = still.fresh.row(y);
+  for (int x = 0; x < picture.size().width; ++x)
+    fresh[x] = static_cast<uint8_t>(std::max(1, int{fresh[x]}) - 1);
+  for (int x = 0; x < picture.size().width; ++x) {
+    if (foreground[x] == 0) {
+      ages[x] = 0;
+      continue;
+    }
+    int off = 0;
+    for (size_t c = 0; c < static_cast<size_t>(picture.channels); ++c)
+      off = std::max(off, absDiff(picture.planes[c].row(y)[x], still.colours[c].row(y)[x]));
+    ages[x] = nextAge(ages[x], ages[x] != 0 && off <= radii[x]);
+    if (ages[x] != 0) continue;
+    ages[x] = 1;
+    for (size_t c = 0; c < static_cast<size_t>(picture.channels); ++c)
+      still.colours[c].row(y)[x] = picture.planes[c].row(y)[x];
+  }
+}
+
+/// Reads the contour of still parts: how strong an edge do picture and model have there?
+class ContourReader {
+ public:
+  ContourReader(const SmoothPicture& picture, const ConsensusBackground& model,
+                ImageView<const uint8_t> foreground, StillScratch& scratch,
+                ImageView<const uint8_t> fresh)
+      : picture_(picture),
+        model_(model),
+        foreground_(foreground),
+        still_(scratch.still),
+        fresh_(fresh),
+        contours_(scratch.contours) {}
+
+  void read(const Run& run) {
+    addAcross({run.begin, run.y}, {-1, 0}, run.component);
+    addAcross({run.end - 1, run.y}, {1, 0}, run.component);
+    for (int x = run.begin; x < run.end; ++x) {
+      addAcross({x, run.y}, {0, -1}, run.component);
+      addAcross({x, run.y}, {0, 1}, run.component);
+    }
+  }
+
+ private:
+  /// The mask's border is a pixel or two off: compare one pixel inside with two outside.
+  void addAcross(Point p, Point step, uint32_t component) {
+    const Point beside{p.x + step.x, p.y + step.y};
+    const Point outside{p.x + 2 * step.x, p.y + 2 * step.y};
+    const Point inside{p.x - step.x, p.y - step.y};
+    const Box bounds = boundsOf(foreground_.size);
+    if (!bounds.contains(outside) || !bounds.contains(inside)) return;
+    if (still_.at(beside.x, beside.y) != 0) return;
+    ContourSums& sums = contours_[component];
+    ++sums.allPixels;
+    if (foreground_.at(beside.x, beside.y) != 0 || foreground_.at(outside.x, outside.y) != 0)
+      return;
+    if (fresh_.at(outside.x, outside.y) != 0) return;
+    int inPicture = 0, inModel = 0;
+    for (int c = 0; c < picture_.channels; ++c) {
+      const ImageView<const uint8_t> plane = picture_.planes[static_cast<size_t>(c)];
+      inPicture = std::max(inPicture,
+                           absDiff(plane.at(inside.x, inside.y), plane.at(outside.x, outside.y)));
+      inModel = std::max(inModel, absDiff(modelled(inside, c), modelled(outside, c)));
+    }
+    sums.inPicture += inPicture;
+    sums.inModel += inModel;
+    ++sums.readPixels;
+  }
+
+  int modelled(Point p, int channel) const {
+    int sum = 0;
+    for (int k = 0; k < kGhostSamples; ++k)
+      sum += model_.plane(k * kSamples / kGhostSamples, channel).at(p.x, p.y);
+    return sum / kGhostSamples;
+  }
+
+  const SmoothPicture& picture_;
+  const ConsensusBackground& model_;
+  ImageView<const uint8_t> foreground_, still_, fresh_;
+  std::vector<ContourSums>& contours_;
+};
+
+uint32_t judgeParts(StillScratch& scratch) {
+  const std::vector<Component>& parts = scratch.parts.list;
+  scratch.isGhost.resize(parts.size());
+  uint32_t pixels = 0;
+  for (size_t i = 0; i < parts.size(); ++i) {
+    const ContourSums& sums = scratch.contours[i];
+    const bool isWitnessed =
+        sums.readPixels >= kLeastContour && sums.readPixels * 256 >= sums.allPixels * kLeastShare;
+    const bool isGhost =
+        isWitnessed && 2 * sums.inModel > 3 * sums.inPicture + kLeastEdge * sums.readPixels;
+    scratch.isGhost[i] = isGhost;
+    if (isGhost) pixels += parts[i].areaPx;
+  }
+  return pixels;
+}
+
+}  // namespace
+
+void prepare(Size size, int channels, StillPixels& still) {
+  for (size_t c = 0; c < static_cast<size_t>(channels); ++c) still.colours[c].resize(size);
+  still.ages.resize(size);
+  still.fresh.resize(size);
+}
+
+void followStill(const SmoothPicture& picture, ImageView<const uint8_t> foreground,
+                 ImageView<const uint8_t> radii, const Executor& executor, StillPixels& still) {
+  executor.forRows(picture.size().height, [&](int first, int last) {
+    for (int y = first; y < last; ++y)
+      followRow(picture, foreground.row(y), radii.row(y), y, still);
+  });
+}
+
+uint32_t findGhosts(const SmoothPicture& picture, const ConsensusBackground& model,
+                    ImageView<const uint8_t> foreground, StillPixels& still, int leastAge,
+                    StillScratch& scratch, ImageView<uint8_t> ghosts) {
+  scratch.still.resize(foreground.size);
+  for (int y = 0; y < foreground.height(); ++y) {
+    const uint16_t* ages = still.ages.row(y);
+    uint8_t* out = scratch.still.row(y);
+    for (int x = 0; x < foreground.width(); ++x) out[x] = ages[x] >= leastAge ? 255 : 0;
+    std::fill_n(ghosts.row(y), foreground.width(), uint8_t{0});
+  }
+  findComponents(scratch.still, 255, Connectivity::Eight, scratch.parts);
+  scratch.contours.assign(scratch.parts.list.size(), {});
+  ContourReader reader(picture, model, foreground, scratch, still.fresh);
+  for (const Run& run : scratch.parts.runs) reader.read(run);
+  const uint32_t pixels = judgeParts(scratch);
+  if (pixels == 0) return 0;
+  paintComponents(scratch.parts, scratch.isGhost, 255, ghosts);
+  paintComponents(scratch.parts, scratch.isGhost, kFreshFrames, still.fresh);
+  return pixels;
+}
+
+}  // namespace rg
