@@ -46,13 +46,6 @@ Point findBest(const Surface<Sum>& surface) {
   return best;
 }
 
-/// Where the two sides of a V through three sums meet, in 1/16 px; the middle one is the least.
-int vertexOffset(int64_t before, int64_t at, int64_t after) {
-  const int64_t rise = std::max(before, after) - at;
-  if (rise <= 0) return 0;
-  return static_cast<int>(divideRounded((before - after) * kMotionUnit, 2 * rise));
-}
-
 /// 256 · value / (value + half): 0 for none, 128 for `half`.
 int64_t saturating(int64_t value, int64_t half) {
   return value <= 0 ? 0 : kFullReliability * value / (value + std::max<int64_t>(half, 1));
@@ -94,19 +87,12 @@ int64_t peakReliability(const Surface<Sum>& surface, Point v, int64_t pixels) {
 }  // namespace
 
 template <class Sum>
-RegionMotion estimateMotion(std::span<const Sum> sums, int reach, const GradientSums& gradients,
-                            bool isSubpixel) {
+RegionMotion estimateMotion(std::span<const Sum> sums, int reach, const GradientSums& gradients) {
   const Surface<Sum> surface(sums, reach);
   const Point v = findBest(surface);
   RegionMotion motion{v.x * kMotionUnit, v.y * kMotionUnit, static_cast<uint64_t>(surface.at(v)),
                       0};
   if (surface.isOnBorder(v)) return motion;
-  if (isSubpixel) {
-    motion.dx +=
-        vertexOffset(surface.at({v.x - 1, v.y}), surface.at(v), surface.at({v.x + 1, v.y}));
-    motion.dy +=
-        vertexOffset(surface.at({v.x, v.y - 1}), surface.at(v), surface.at({v.x, v.y + 1}));
-  }
   const auto pixels = static_cast<int64_t>(gradients.pixels);
   const int64_t reliability =
       std::min({gradientReliability(gradients), curvatureReliability(surface, v, pixels),
@@ -115,7 +101,7 @@ RegionMotion estimateMotion(std::span<const Sum> sums, int reach, const Gradient
   return motion;
 }
 
-template RegionMotion estimateMotion(std::span<const uint32_t>, int, const GradientSums&, bool);
-template RegionMotion estimateMotion(std::span<const uint64_t>, int, const GradientSums&, bool);
+template RegionMotion estimateMotion(std::span<const uint32_t>, int, const GradientSums&);
+template RegionMotion estimateMotion(std::span<const uint64_t>, int, const GradientSums&);
 
 }  // namespace rg

@@ -6,10 +6,6 @@
 namespace rg {
 namespace {
 
-constexpr bool startsRun(uint8_t links) {
-  return (links & (kInScope | kLinkedLeft)) == kInScope;
-}
-
 /// Root of a union-find forest whose parents have smaller indices; halves the path.
 uint32_t findRoot(std::vector<uint32_t>& parents, uint32_t i) {
   while (parents[i] != i) i = parents[i] = parents[parents[i]];
@@ -27,7 +23,8 @@ void unite(std::vector<uint32_t>& parents, uint32_t a, uint32_t b) {
 
 }  // namespace
 
-void PixelRuns::build(const ColourLinks& links, const Executor& executor) {
+void PixelRuns::build(const ColourLinks& links, const RunLimits& limits, const Executor& executor) {
+  limits_ = limits;
   const int height = links.size().height;
   rowStarts_.assign(static_cast<size_t>(height) + 1, 0);
   executor.forRows(height, [&](int firstRow, int lastRow) {
@@ -35,7 +32,7 @@ void PixelRuns::build(const ColourLinks& links, const Executor& executor) {
       const Span span = links.span(y);
       const uint8_t* row = links.links(y);
       uint32_t starts = 0;
-      for (int x = span.first; x < span.last; ++x) starts += startsRun(row[x]);
+      for (int x = span.first; x < span.last; ++x) starts += startsRun(row, x);
       rowStarts_[static_cast<size_t>(y) + 1] = starts;
     }
   });
@@ -43,16 +40,19 @@ void PixelRuns::build(const ColourLinks& links, const Executor& executor) {
 
   runs_.resize(rowStarts_.back());
   parents_.resize(rowStarts_.back());
-  seams_.assign(static_cast<size_t>(height), 0);
-  executor.forRows(height, [&](int first, int last) {
+  const int tiles = (height + limits_.tilePx - 1) / limits_.tilePx;
+  executor.forEach(tiles, [&](int tile) {
+    const int first = tile * limits_.tilePx, last = std::min(first + limits_.tilePx, height);
     for (int y = first; y < last; ++y) findRuns(links, y);
-    seams_[static_cast<size_t>(first)] = first > 0;
-    for (int y = first + 1; y < last; ++y) joinRows(links, y);
-    for (uint32_t i = rowStart(first); i < rowStart(last); ++i) findRoot(parents_, i);
+    for (int y = first + 1; y < last; ++y) joinRows(links, y, parents_);
+    for (uint32_t i = rowStart(first); i < rowStart(last); ++i) parents_[i] = findRoot(parents_, i);
   });
-  for (int y = 1; y < height; ++y)
-    if (seams_[static_cast<size_t>(y)] != 0) joinRows(links, y);
+  joinTiles(links);
   numberComponents();
+}
+
+bool PixelRuns::startsRun(const uint8_t* links, int x) const {
+  return (links[x] & kInScope) != 0 && ((links[x] & kLinkedLeft) == 0 || x % limits_.tilePx == 0);
 }
 
 void PixelRuns::findRuns(const ColourLinks& links, int y) {
@@ -65,28 +65,50 @@ void PixelRuns::findRuns(const ColourLinks& links, int y) {
       continue;
     }
     const int first = x;
+    const int end = std::min(span.last, (x / limits_.tilePx + 1) * limits_.tilePx);
     do ++x;
-    while (x < span.last && (row[x] & kLinkedLeft) != 0);
+    while (x < end && (row[x] & kLinkedLeft) != 0);
     runs_[next] = {first, x};
     parents_[next] = next;
     ++next;
   }
 }
 
-void PixelRuns::joinRows(const ColourLinks& links, int y) {
+void PixelRuns::joinRows(const ColourLinks& links, int y, std::vector<uint32_t>& parents) const {
   const uint8_t* row = links.links(y);
   forOverlaps(*this, y, [&](uint32_t i, uint32_t j, int first, int last) {
     if (std::any_of(row + first, row + last, [](uint8_t l) { return (l & kLinkedUp) != 0; }))
-      unite(parents_, i, j);
+      unite(parents, i, j);
   });
+}
+
+void PixelRuns::joinTiles(const ColourLinks& links) {
+  whole_ = parents_;
+  const int height = links.size().height;
+  for (int y = limits_.tilePx; y < height; y += limits_.tilePx) joinRows(links, y, whole_);
+  for (int y = 0; y < height; ++y) {
+    const uint8_t* row = links.links(y);
+    for (uint32_t j = rowStart(y) + 1; j < rowStart(y + 1); ++j) {
+      const int x = runs_[j].first;
+      if (x % limits_.tilePx == 0 && runs_[j - 1].last == x && (row[x] & kLinkedLeft) != 0)
+        unite(whole_, j - 1, j);
+    }
+  }
+  areas_.assign(whole_.size(), 0);
+  for (uint32_t i = 0; i < count(); ++i) {
+    whole_[i] = whole_[whole_[i]];
+    areas_[whole_[i]] += static_cast<uint32_t>(runs_[i].last - runs_[i].first);
+  }
 }
 
 // Parents precede their children, so one sweep in raster order sees each root first.
 void PixelRuns::numberComponents() {
   components_.resize(parents_.size());
   componentCount_ = 0;
-  for (uint32_t i = 0; i < count(); ++i)
-    components_[i] = parents_[i] == i ? componentCount_++ : components_[parents_[i]];
+  for (uint32_t i = 0; i < count(); ++i) {
+    const uint32_t root = areas_[whole_[i]] > limits_.maxAreaPx ? parents_[i] : whole_[i];
+    components_[i] = root == i ? componentCount_++ : components_[root];
+  }
 }
 
 }  // namespace rg

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Linked pixels as horizontal runs, and the runs' components (part of stage 2).
 //
+// Components larger than a limit are cut along a fixed grid of tiles: one motion does not describe
+// half a frame, and a grid stands still where iso-lines of a shading would wander.
 // Determinism: a component is a transitive closure; components are numbered from 0 in the raster
 // order of their first pixels.
 #pragma once
@@ -20,9 +22,14 @@ struct PixelRun {
   int32_t last = 0;
 };
 
+struct RunLimits {
+  uint32_t maxAreaPx = ~uint32_t{0};  ///< Larger components are cut.
+  int tilePx = 64;                    ///< Side of the tiles that they are cut into.
+};
+
 class PixelRuns {
  public:
-  void build(const ColourLinks& links, const Executor& executor);
+  void build(const ColourLinks& links, const RunLimits& limits, const Executor& executor);
 
   [[nodiscard]] uint32_t count() const { return static_cast<uint32_t>(runs_.size()); }
   [[nodiscard]] uint32_t componentCount() const { return componentCount_; }
@@ -32,14 +39,19 @@ class PixelRuns {
   [[nodiscard]] uint32_t component(uint32_t run) const { return components_[run]; }
 
  private:
+  [[nodiscard]] bool startsRun(const uint8_t* links, int x) const;
   void findRuns(const ColourLinks& links, int y);
-  void joinRows(const ColourLinks& links, int y);
+  void joinRows(const ColourLinks& links, int y, std::vector<uint32_t>& parents) const;
+  void joinTiles(const ColourLinks& links);
   void numberComponents();
 
+  RunLimits limits_;
   std::vector<uint32_t> rowStarts_;
   std::vector<PixelRun> runs_;
-  std::vector<uint32_t> parents_, components_;
-  std::vector<uint8_t> seams_;  ///< Rows that are to be joined to the rows of another task.
+  std::vector<uint32_t> parents_;  ///< Forest of the runs, within a tile.
+  std::vector<uint32_t> whole_;    ///< The same, across the tiles.
+  std::vector<uint32_t> areas_;    ///< Of each root of `whole_`.
+  std::vector<uint32_t> components_;
   uint32_t componentCount_ = 0;
 };
 

@@ -2,7 +2,9 @@
 #include "core/region_motion.hpp"
 
 #include "core/cell_matching.hpp"
+#include "core/inner_pixels.hpp"
 #include "core/motion_estimate.hpp"
+#include "core/motion_refinement.hpp"
 #include "core/pool.hpp"
 
 #include <algorithm>
@@ -60,11 +62,12 @@ class CpuMotion : public MotionStage {
   void reset(Reset) override { previous_.reset(); }
 
  private:
-  void match(const Labels& labels, const MotionParams& params, Motion& motion);
+  void match(const Graph& graph, const MotionParams& params, Motion& motion);
   void collectParts(const Labels& labels);
   void cutChunks();
   void matchBatch(size_t first, size_t last, const Labels& labels);
   void closeBatch(size_t first, size_t last, Motion& motion);
+  void refine(const Labels& labels, Motion& motion);
   void addToCarry(const Group& group);
   [[nodiscard]] RegionMotion closeGroup(const Group& group);
 
@@ -76,6 +79,7 @@ class CpuMotion : public MotionStage {
   Context context_;
   std::shared_ptr<const Picture> previous_;
   PaddedLuma padded_;
+  InnerPixels pixels_;
   std::vector<std::vector<CellPart>> rowParts_;
   std::vector<CellPart> parts_;
   std::vector<uint32_t> starts_;
@@ -101,7 +105,7 @@ Result<std::shared_ptr<const Motion>> CpuMotion::process(std::shared_ptr<const G
   if (graph->status != Status::Skipped) {
     std::shared_ptr<const Picture> picture = graph->labels->picture;
     if (previous_ && previous_->size() == picture->size()) {
-      match(*graph->labels, params, *motion);
+      match(*graph, params, *motion);
       motion->status = graph->status;
     }
     previous_ = std::move(picture);
@@ -110,10 +114,12 @@ Result<std::shared_ptr<const Motion>> CpuMotion::process(std::shared_ptr<const G
   return std::shared_ptr<const Motion>(motion);
 }
 
-void CpuMotion::match(const Labels& labels, const MotionParams& params, Motion& motion) {
+void CpuMotion::match(const Graph& graph, const MotionParams& params, Motion& motion) {
   reach_ = std::clamp(params.maxShiftPx, 1, kMostShift);
   isSubpixel_ = params.isSubpixel;
   shifts_ = static_cast<size_t>(shiftCount(reach_));
+  const Labels& labels = *graph.labels;
+  pixels_.find(labels.ids, graph.regions, *context_.cpu);
   collectParts(labels);
   if (parts_.empty()) return;
   padded_.build(previous_->luma(), reach_, *context_.cpu);
@@ -129,6 +135,20 @@ void CpuMotion::match(const Labels& labels, const MotionParams& params, Motion& 
     matchBatch(first, last, labels);
     closeBatch(first, last, motion);
   }
+  if (isSubpixel_) refine(labels, motion);
+}
+
+void CpuMotion::refine(const Labels& labels, Motion& motion) {
+  context_.cpu->forEach(static_cast<int>(labels.count), [&](int i) {
+    const auto label = static_cast<size_t>(i) + 1;
+    RegionMotion& region = motion.regions[label - 1];
+    if (std::max(std::abs(region.dx), std::abs(region.dy)) >= reach_ * kMotionUnit) return;
+    const std::span<const CellPart> parts(parts_.data() + starts_[label - 1],
+                                          starts_[label] - starts_[label - 1]);
+    const Point d = refineMotion(parts, pixels_.ids(), labels.picture->luma(), padded_, region);
+    region.dx = d.x;
+    region.dy = d.y;
+  });
 }
 
 // Sorted by label, then by cell: a count by label keeps the order of the cells.
@@ -137,7 +157,7 @@ void CpuMotion::collectParts(const Labels& labels) {
   rowParts_.resize(static_cast<size_t>(rows));
   context_.cpu->forEach(rows, [&](int row) {
     rowParts_[static_cast<size_t>(row)].clear();
-    findParts(labels.ids, row, rowParts_[static_cast<size_t>(row)]);
+    findParts(pixels_.ids(), row, rowParts_[static_cast<size_t>(row)]);
   });
   starts_.assign(size_t{labels.count} + 2, 0);
   for (const auto& row : rowParts_)
@@ -169,8 +189,8 @@ void CpuMotion::matchBatch(size_t first, size_t last, const Labels& labels) {
     std::fill(sumsOf(slot).begin(), sumsOf(slot).end(), 0u);
     gradients_[slot] = {};
     for (uint32_t p = chunk.first; p < chunk.last; ++p) {
-      addPart(parts_[p], labels.ids, luma, padded_, scratch_[slot], sumsOf(slot));
-      add(gradients_[slot], gradientsOf(parts_[p], labels.ids, luma));
+      addPart(parts_[p], pixels_.ids(), luma, padded_, scratch_[slot], sumsOf(slot));
+      add(gradients_[slot], gradientsOf(parts_[p], pixels_.ids(), luma));
     }
   });
 }
@@ -191,7 +211,7 @@ void CpuMotion::closeBatch(size_t first, size_t last, Motion& motion) {
     begin = 1;
     if (goesOn && end == 1) return;
     motion.regions[labelOf(first) - 1u] =
-        estimateMotion<uint64_t>(carry_, reach_, carriedGradients_, isSubpixel_);
+        estimateMotion<uint64_t>(carry_, reach_, carriedGradients_);
     std::fill(carry_.begin(), carry_.end(), 0u);
     carriedGradients_ = {};
   }
@@ -218,7 +238,7 @@ RegionMotion CpuMotion::closeGroup(const Group& group) {
     for (size_t i = 0; i < shifts_; ++i) total[i] += sums[i];
     add(gradients_[group.first], gradients_[slot]);
   }
-  return estimateMotion<uint32_t>(total, reach_, gradients_[group.first], isSubpixel_);
+  return estimateMotion<uint32_t>(total, reach_, gradients_[group.first]);
 }
 
 }  // namespace

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Stage 4, element prmmotion: partitioned region matching (paper, section 2.3 phase 2.1).
 //
-// A region's vector is the shift d = (dx, dy) that makes SAD(d) = sum over its pixels x of
-// |I_t(x) − I_t−1(x − d)| smallest: by how much it moved since the previous frame. Pixels outside
-// the previous frame repeat its border.
+// A region's vector is the shift d = (dx, dy) that makes SAD(d) = sum over its matched pixels x of
+// |I_t(x) − I_t−1(x − d)| smallest: by how much it moved since the previous frame. Matched are the
+// pixels away from the region's border (core/inner_pixels.hpp). Pixels outside the previous frame
+// repeat its border. The fraction of a pixel follows from the gradients
+// (core/motion_refinement.hpp).
 // Determinism: integer sums. Tie-break: smallest (SAD, |d|², dy, dx).
 #pragma once
 
@@ -24,7 +26,7 @@ inline constexpr int kFullReliability = 256;
 struct RegionMotion {
   int32_t dx = 0;  ///< In 1/16 px, from the previous frame to this one.
   int32_t dy = 0;
-  uint64_t sad = 0;          ///< At the best whole-pixel shift.
+  uint64_t sad = 0;          ///< Of the matched pixels at the best whole shift.
   uint16_t reliability = 0;  ///< 0 (says nothing) … kFullReliability.
 };
 

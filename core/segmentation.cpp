@@ -3,6 +3,7 @@
 
 #include "core/absorption.hpp"
 #include "core/colour_links.hpp"
+#include "core/pixel.hpp"
 #include "core/pixel_runs.hpp"
 #include "core/pool.hpp"
 
@@ -20,6 +21,12 @@ constexpr int kDefaultSimilarity = 2;
 constexpr uint32_t leastArea(const SegmentationParams& params, Size size) {
   if (params.minAreaPx > 0) return static_cast<uint32_t>(params.minAreaPx);
   return static_cast<uint32_t>(std::max(kDefaultLeastArea, size.area() / kDefaultAreaShare));
+}
+
+/// Components above a 32nd of the frame are cut into tiles of about a 64th, of whole 8x8 cells.
+RunLimits runLimits(Size size) {
+  const auto side = static_cast<int>(integerSqrt(static_cast<uint64_t>(size.area() / 64)));
+  return {static_cast<uint32_t>(size.area() / 32), std::max(side / 8 * 8, 16)};
 }
 
 Result<std::shared_ptr<const Labels>> skipped(Pool<Labels>& pool, Scope scope, Size size) {
@@ -79,7 +86,7 @@ Result<std::shared_ptr<const Labels>> CpuSegmentation::process(
   ImageView<const uint8_t> mask;
   if (wantsForeground) mask = foreground->mask;
   links_.build(*picture, mask, {similarity, minArea > 1}, *context_.cpu);
-  runs_.build(links_, *context_.cpu);
+  runs_.build(links_, runLimits(labels->size), *context_.cpu);
   collectRegions(*picture);
   collectBorders();
   absorption_.run({minArea, maxRegions});
