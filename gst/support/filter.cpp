@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "gst/support/filter.hpp"
 
-#include <exception>
-#include <new>
+#include "gst/support/guarded.hpp"
+
 #include <utility>
 
 #define RG_PIXEL_FORMATS "{ BGRx, RGBx, BGRA, RGBA, BGR, RGB, NV12, I420, GRAY8 }"
@@ -37,24 +37,6 @@ Class* classOf(gpointer instance) {
 }
 Filter& filterOf(gpointer instance) {
   return *reinterpret_cast<Instance*>(instance)->filter;
-}
-
-/// Runs the body of a vfunc. An exception must not unwind through C: it becomes an error on the bus
-/// and the value `failed`.
-template <class T, class Body>
-T guarded(GstBaseTransform* element, T failed, Body body) noexcept {
-  const char* what = "unknown exception";
-  try {
-    return body();
-  } catch (const std::bad_alloc&) {
-    what = "out of memory";
-  } catch (const std::exception& e) {
-    GST_ELEMENT_ERROR(element, LIBRARY, FAILED, ("Internal error: %s.", e.what()), (nullptr));
-    return failed;
-  } catch (...) {
-  }
-  GST_ELEMENT_ERROR(element, LIBRARY, FAILED, ("Internal error: %s.", what), (nullptr));
-  return failed;
 }
 
 }  // namespace
@@ -182,6 +164,14 @@ struct FilterShell {
     return gst_pad_peer_query(GST_BASE_TRANSFORM_SRC_PAD(element), query);
   }
 
+  static gboolean decideAllocation(GstBaseTransform* element, GstQuery* query) {
+    guarded(element, FALSE, [&]() -> gboolean {
+      filterOf(element).decideAllocation(query);
+      return TRUE;
+    });
+    return GST_BASE_TRANSFORM_CLASS(parentClass)->decide_allocation(element, query);
+  }
+
   static void initClass(gpointer klass, gpointer data) {
     auto* self = static_cast<Class*>(klass);
     self->description = static_cast<const FilterDescription*>(data);
@@ -210,6 +200,7 @@ struct FilterShell {
     transformClass->set_caps = setCaps;
     transformClass->sink_event = sinkEvent;
     transformClass->transform_ip = transform;
+    transformClass->decide_allocation = decideAllocation;
     transformClass->propose_allocation = proposeAllocation;
   }
 

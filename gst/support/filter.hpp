@@ -64,6 +64,8 @@ class Filter {
   virtual void stop() {}
   virtual void reset(Reset what) { (void)what; }
   virtual void endOfStream() {}
+  /// Downstream's answer to the allocation query, after each negotiation.
+  virtual void decideAllocation(GstQuery* query) { (void)query; }
   virtual GstFlowReturn process(const FilterFrame& frame) = 0;
 
   [[nodiscard]] std::mutex& settingsMutex() { return settingsMutex_; }

@@ -48,14 +48,17 @@ class StageFilter : public Filter {
   Upstream<Payload> require(const FilterFrame& frame, const char* producer) {
     if (frame.isFirst) hasWarned_ = false;
     Upstream<Payload> upstream{findResult<Payload>(frame.buffer)};
-    if (upstream.result) return upstream;
-    if (frame.isFirst)
-      upstream.flow = postError(std::string("No result of ") + producer + " on the frames: add " +
-                                producer + " to the pipeline before this element.");
-    else
-      warnOnce(std::string("The results of ") + producer +
-               " stopped; frames without them are skipped.");
+    if (!upstream.result) upstream.flow = reportMissing(frame, producer);
     return upstream;
+  }
+
+  /// An error on the first frame, since what is missing there will never come; else one warning.
+  GstFlowReturn reportMissing(const FilterFrame& frame, const std::string& producer) {
+    if (frame.isFirst)
+      return postError("No result of " + producer + " on the frames: add " + producer +
+                       " to the pipeline before this element.");
+    warnOnce("The results of " + producer + " stopped; frames without them are skipped.");
+    return GST_FLOW_OK;
   }
 
   /// Attaches what the stage said, or an empty result marked as skipped where it failed.
