@@ -37,6 +37,14 @@ struct FrameMap {
   [[nodiscard]] constexpr int64_t area(int64_t areaPx) const {
     return divideRounded(areaPx * to.area(), from.area());
   }
+
+  /// The way back, for whole pixels of `to`: the pixel of `from` that lies under the centre.
+  [[nodiscard]] constexpr int sourceX(int column) const {
+    return static_cast<int>((2 * int64_t{column} + 1) * from.width / (2 * int64_t{to.width}));
+  }
+  [[nodiscard]] constexpr int sourceY(int row) const {
+    return static_cast<int>((2 * int64_t{row} + 1) * from.height / (2 * int64_t{to.height}));
+  }
 };
 
 /// A result of a skipped frame may have no size; there is nothing in it to be mapped.
@@ -46,5 +54,6 @@ struct FrameMap {
 static_assert(FrameMap{{4, 4}, {8, 2}}.box({1, 1, 2, 2}) == Box{2, 1, 4, 1});
 static_assert(FrameMap{{100, 100}, {1, 1}}.box({40, 40, 3, 3}) == Box{0, 0, 1, 1});
 static_assert(FrameMap{{3, 3}, {6, 6}}.area(5) == 20);
+static_assert(FrameMap{{3, 3}, {6, 6}}.sourceX(5) == 2 && FrameMap{{9, 9}, {3, 3}}.sourceY(0) == 1);
 
 }  // namespace rg

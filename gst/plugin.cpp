@@ -10,6 +10,12 @@ static gboolean pluginInit(GstPlugin* plugin) {
   isComplete &= GST_ELEMENT_REGISTER(srg, plugin);
   isComplete &= GST_ELEMENT_REGISTER(prmmotion, plugin);
   isComplete &= GST_ELEMENT_REGISTER(mrfmerge, plugin);
+  isComplete &= GST_ELEMENT_REGISTER(regionmask, plugin);
+  isComplete &= GST_ELEMENT_REGISTER(regiontrack, plugin);
+  isComplete &= GST_ELEMENT_REGISTER(regionwrite, plugin);
+#ifdef REGIONGRAPH_HAS_OVERLAY
+  isComplete &= GST_ELEMENT_REGISTER(regionoverlay, plugin);
+#endif
   return isComplete;
 }
 

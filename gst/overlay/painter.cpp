@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "gst/overlay/painter.hpp"
+
+#include "core/text/names.hpp"
+#include "gst/overlay/graph_view.hpp"
+
+#include <gst/video/gstvideometa.h>
+
+#include <utility>
+
+namespace rg::overlay {
+namespace {
+
+using Block = std::shared_ptr<Image<uint32_t>>;
+
+/// A buffer that shows the block's pixels and keeps the block.
+GstBuffer* wrap(const Block& block) {
+  auto* keeper = new Block(block);
+  const ImageView<uint32_t> pixels = block->view();
+  const auto bytes = static_cast<gsize>(pixels.strideBytes) * static_cast<gsize>(pixels.height());
+  GstBuffer* buffer =
+      gst_buffer_new_wrapped_full(GST_MEMORY_FLAG_READONLY, pixels.data, bytes, 0, bytes, keeper,
+                                  [](gpointer used) { delete static_cast<Block*>(used); });
+  gsize offset[GST_VIDEO_MAX_PLANES] = {};
+  gint stride[GST_VIDEO_MAX_PLANES] = {static_cast<gint>(pixels.strideBytes)};
+  gst_buffer_add_video_meta_full(
+      buffer, GST_VIDEO_FRAME_FLAG_NONE, GST_VIDEO_OVERLAY_COMPOSITION_FORMAT_RGB,
+      static_cast<guint>(pixels.width()), static_cast<guint>(pixels.height()), 1, offset, stride);
+  return buffer;
+}
+
+}  // namespace
+
+void Painter::follow(const Objects& objects, int64_t nowNs, double trailLengthS) {
+  trails_.advance(objects, nowNs, static_cast<int64_t>(trailLengthS * GST_SECOND));
+}
+
+CompositionPtr Painter::paint(const Scene& scene, const Views& views) {
+  const Style style = styleFor(scene.frame, views.scale);
+  layOutAll(scene, views, style);
+  int64_t sum = 0;
+  for (const Box& extent : extents_) sum += extent.area();
+  const bool isWhole = hasGraphView(scene, views) || sum > scene.frame.area();
+  if (isWhole)
+    paintWhole(scene, views, style);
+  else
+    paintEach(views, style);
+  return std::move(composition_);
+}
+
+void Painter::layOutAll(const Scene& scene, const Views& views, const Style& style) {
+  figureCount_ = 0;
+  extents_.clear();
+  if (!scene.objects || !views.any()) return;
+  const FrameMap map = mapBetween(scene.objects->size, scene.frame);
+  for (const Object& object : scene.objects->objects) {
+    if (!text::isListed(object.state)) continue;
+    if (figureCount_ == figures_.size()) figures_.emplace_back();
+    Figure& figure = figures_[figureCount_++];
+    layOut(object, trails_, map, views, style, figure);
+    extents_.push_back(extentOf(figure, views, style, scene.frame));
+  }
+}
+
+void Painter::paintWhole(const Scene& scene, const Views& views, const Style& style) {
+  Canvas canvas = addRectangle(boundsOf(scene.frame), style);
+  drawGraphView(scene, views, canvas);
+  for (size_t i = 0; i < figureCount_; ++i) draw(figures_[i], views, canvas);
+}
+
+void Painter::paintEach(const Views& views, const Style& style) {
+  for (size_t i = 0; i < figureCount_; ++i) {
+    if (extents_[i].isEmpty()) continue;
+    Canvas canvas = addRectangle(extents_[i], style);
+    draw(figures_[i], views, canvas);
+  }
+}
+
+Canvas Painter::addRectangle(const Box& box, const Style& style) {
+  const Block block = pool_.take();
+  block->resize({box.width, box.height});
+  GstBuffer* buffer = wrap(block);
+  GstVideoOverlayRectangle* rectangle = gst_video_overlay_rectangle_new_raw(
+      buffer, box.x, box.y, static_cast<guint>(box.width), static_cast<guint>(box.height),
+      GST_VIDEO_OVERLAY_FORMAT_FLAG_PREMULTIPLIED_ALPHA);
+  gst_buffer_unref(buffer);
+  if (composition_)
+    gst_video_overlay_composition_add_rectangle(composition_.get(), rectangle);
+  else
+    composition_.reset(gst_video_overlay_composition_new(rectangle));
+  gst_video_overlay_rectangle_unref(rectangle);
+  return {block->view(), {box.x, box.y}, style};
+}
+
+}  // namespace rg::overlay

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// From results to a GstVideoOverlayComposition.
+#pragma once
+
+#include "core/objects.hpp"
+#include "core/pool.hpp"
+#include "gst/overlay/figure.hpp"
+
+#include <gst/video/video-overlay-composition.h>
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace rg::overlay {
+
+/// What is drawn, and how large.
+struct Views : Parts {
+  bool graph = false;
+  double trailLengthS = 2.0;
+  double scale = 1.0;
+};
+
+/// What is known of a frame; each result may be missing.
+struct Scene {
+  Size frame;
+  double framesPerSecond = 25;
+  const Objects* objects = nullptr;
+  const Graph* graph = nullptr;
+  const Motion* motion = nullptr;
+};
+
+struct Unref {
+  void operator()(GstVideoOverlayComposition* composition) const {
+    gst_video_overlay_composition_unref(composition);
+  }
+};
+using CompositionPtr = std::unique_ptr<GstVideoOverlayComposition, Unref>;
+
+/// Draws each object on a rectangle of its own, as large as it needs; all on one as large as the
+/// frame where that is less. The rectangles' memory is used again once nobody reads it.
+class Painter {
+ public:
+  /// The objects of a frame that has passed, drawn or not: trails go on.
+  void follow(const Objects& objects, int64_t nowNs, double trailLengthS);
+  void forget() { trails_.clear(); }
+
+  /// Null where there is nothing to draw.
+  [[nodiscard]] CompositionPtr paint(const Scene& scene, const Views& views);
+
+ private:
+  void layOutAll(const Scene& scene, const Views& views, const Style& style);
+  void paintWhole(const Scene& scene, const Views& views, const Style& style);
+  void paintEach(const Views& views, const Style& style);
+  [[nodiscard]] Canvas addRectangle(const Box& box, const Style& style);
+
+  Trails trails_;
+  std::vector<Figure> figures_;  ///< The first figureCount_ are of this frame.
+  std::vector<Box> extents_;
+  size_t figureCount_ = 0;
+  Pool<Image<uint32_t>> pool_;
+  CompositionPtr composition_;  ///< The one being made.
+};
+
+}  // namespace rg::overlay

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Sizes and colours of what is drawn, so that it can be read on any frame.
+#pragma once
+
+#include "core/geometry.hpp"
+#include "core/region_graph.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+namespace rg::overlay {
+
+struct Style {
+  int linePx = 1;   ///< Thickness of lines.
+  int textPx = 9;   ///< Height of capital letters.
+  int spacePx = 2;  ///< Around text, and between dashes.
+};
+
+/// Lines of 1/320 and letters of 1/45 of the frame's shorter side, times `scale`; never so small
+/// that they vanish.
+[[nodiscard]] inline Style styleFor(Size frame, double scale) {
+  const double side = std::min(frame.width, frame.height) * scale;
+  Style style;
+  style.linePx = std::max(1, static_cast<int>(side / 320 + 0.5));
+  style.textPx = std::max(7, static_cast<int>(side / 45 + 0.5));
+  style.spacePx = std::max(2, style.textPx / 4);
+  return style;
+}
+
+/// A colour of its own for each of twelve objects in turn; neighbours in number differ most.
+[[nodiscard]] inline Colour colourOf(uint64_t id) {
+  constexpr std::array<Colour, 12> kColours{{{255, 92, 80},
+                                             {64, 200, 255},
+                                             {255, 214, 40},
+                                             {190, 120, 255},
+                                             {90, 225, 90},
+                                             {255, 130, 215},
+                                             {60, 235, 205},
+                                             {255, 160, 50},
+                                             {130, 160, 255},
+                                             {205, 235, 70},
+                                             {235, 85, 150},
+                                             {175, 205, 215}}};
+  return kColours[id % kColours.size()];
+}
+
+}  // namespace rg::overlay

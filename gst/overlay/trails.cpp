@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "gst/overlay/trails.hpp"
+
+#include "core/text/names.hpp"
+
+namespace rg::overlay {
+
+void Trails::moveAll(Point by) {
+  if (by == Point{}) return;
+  for (auto& [id, trail] : trails_) {
+    for (size_t i = 0; i < trail.count; ++i) {
+      Point& position = trail.ring[(trail.first + i) % kCapacity].position;
+      position = {position.x + by.x, position.y + by.y};
+    }
+  }
+}
+
+void Trails::forget(Trail& trail, int64_t beforeNs) {
+  while (trail.count > 0 && trail.ring[trail.first].ns < beforeNs) {
+    trail.first = (trail.first + 1) % kCapacity;
+    --trail.count;
+  }
+}
+
+void Trails::append(Trail& trail, const Sample& sample) {
+  if (trail.count == kCapacity) {
+    trail.first = (trail.first + 1) % kCapacity;
+    --trail.count;
+  }
+  trail.ring[(trail.first + trail.count) % kCapacity] = sample;
+  ++trail.count;
+}
+
+void Trails::advance(const Objects& objects, int64_t nowNs, int64_t lengthNs) {
+  moveAll({objects.cameraDx, objects.cameraDy});
+  for (const Object& object : objects.objects) {
+    if (!text::isListed(object.state)) continue;
+    Trail& trail = trails_[object.id];
+    trail.seenNs = nowNs;
+    const int64_t stepNs = lengthNs / static_cast<int64_t>(kCapacity - 1);
+    const auto& last = trail.ring[(trail.first + trail.count + kCapacity - 1) % kCapacity];
+    if (trail.count == 0 || nowNs - last.ns >= stepNs)
+      append(trail, {{object.centroidX, object.centroidY}, nowNs});
+  }
+  for (auto& [id, trail] : trails_) forget(trail, nowNs - lengthNs);
+  std::erase_if(trails_, [&](const auto& entry) { return entry.second.seenNs < nowNs - lengthNs; });
+}
+
+void Trails::copy(const Object& object, std::vector<Point>& out) const {
+  out.clear();
+  if (const auto found = trails_.find(object.id); found != trails_.end()) {
+    const Trail& trail = found->second;
+    for (size_t i = 0; i < trail.count; ++i)
+      out.push_back(trail.ring[(trail.first + i) % kCapacity].position);
+  }
+  out.push_back({object.centroidX, object.centroidY});
+}
+
+}  // namespace rg::overlay

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "gst/support/line_file.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <climits>
+#include <csignal>
+#include <ctime>
+#include <fcntl.h>
+#include <poll.h>
+#include <pthread.h>
+#include <sys/stat.h>
+#include <system_error>
+#include <unistd.h>
+#include <utility>
+
+namespace rg {
+namespace {
+
+constexpr int kPollMs = 100;  // How soon a cancellation is noticed.
+
+Error errorOf(int code) {
+  return {std::generic_category().message(code)};
+}
+
+/// Keeps SIGPIPE from ending the process when the reader of a pipe goes away. Only this thread's
+/// mask changes; a signal that write() raised meanwhile is taken back.
+class SigpipeBlock {
+ public:
+  SigpipeBlock() {
+    sigemptyset(&pipe_);
+    sigaddset(&pipe_, SIGPIPE);
+    sigset_t pending;
+    sigpending(&pending);
+    wasPending_ = sigismember(&pending, SIGPIPE) == 1;
+    pthread_sigmask(SIG_BLOCK, &pipe_, &old_);
+  }
+  ~SigpipeBlock() {
+    constexpr timespec kNow{};
+    if (!wasPending_) sigtimedwait(&pipe_, nullptr, &kNow);
+    pthread_sigmask(SIG_SETMASK, &old_, nullptr);
+  }
+  SigpipeBlock(const SigpipeBlock&) = delete;
+  SigpipeBlock& operator=(const SigpipeBlock&) = delete;
+
+ private:
+  sigset_t pipe_;
+  sigset_t old_;
+  bool wasPending_;
+};
+
+}  // namespace
+
+LineFile::LineFile(LineFile&& other) noexcept
+    : fd_(std::exchange(other.fd_, kNone)), isRegular_(other.isRegular_) {}
+
+LineFile& LineFile::operator=(LineFile&& other) noexcept {
+  std::swap(fd_, other.fd_);
+  std::swap(isRegular_, other.isRegular_);
+  return *this;
+}
+
+Result<LineFile> LineFile::open(const std::string& location) {
+  LineFile file;
+  if (location == "-") {
+    file.fd_ = STDOUT_FILENO;
+  } else {
+    // Non-blocking, so that a pipe without a reader is an error instead of a pipeline that hangs.
+    constexpr int kFlags = O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOCTTY | O_NONBLOCK;
+    do {
+      file.fd_ = ::open(location.c_str(), kFlags, 0666);
+    } while (file.fd_ == kNone && errno == EINTR);
+    if (file.fd_ == kNone && errno == ENXIO) return Error{"nobody reads from this pipe"};
+    if (file.fd_ == kNone) return errorOf(errno);
+  }
+  struct stat status;
+  file.isRegular_ = fstat(file.fd_, &status) == 0 && S_ISREG(status.st_mode);
+  return file;
+}
+
+std::optional<Error> LineFile::write(std::string_view text,
+                                     const std::function<bool()>& isCancelled) {
+  const SigpipeBlock block;
+  while (!text.empty()) {
+    if (!isRegular_) {
+      pollfd waiting{fd_, POLLOUT, 0};
+      const int ready = poll(&waiting, 1, kPollMs);
+      if (ready < 0 && errno != EINTR) return errorOf(errno);
+      if (ready == 0 && isCancelled()) return std::nullopt;
+      if (ready <= 0) continue;
+    }
+    // A pipe that poll() calls writable takes PIPE_BUF bytes without blocking.
+    const size_t most = isRegular_ ? text.size() : std::min<size_t>(text.size(), PIPE_BUF);
+    const ssize_t written = ::write(fd_, text.data(), most);
+    if (written >= 0)
+      text.remove_prefix(static_cast<size_t>(written));
+    else if (errno != EINTR && errno != EAGAIN)
+      return errorOf(errno);
+  }
+  return std::nullopt;
+}
+
+std::optional<Error> LineFile::close() {
+  const int fd = std::exchange(fd_, kNone);
+  if (fd == kNone || fd == STDOUT_FILENO) return std::nullopt;
+  // What was written may be refused as late as here, by a network's file system for instance.
+  if (::close(fd) != 0 && errno != EINTR) return errorOf(errno);
+  return std::nullopt;
+}
+
+}  // namespace rg

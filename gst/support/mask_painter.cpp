@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "gst/support/mask_painter.hpp"
+
+#include "core/mapping.hpp"
+#include "gst/meta/result_meta.hpp"
+
+#include <cstring>
+
+namespace rg {
+namespace {
+
+constexpr uint8_t kWhite = 255;
+
+uint8_t* rowOf(GstVideoFrame* frame, int y) {
+  return static_cast<uint8_t*>(GST_VIDEO_FRAME_PLANE_DATA(frame, 0)) +
+         ptrdiff_t{y} * GST_VIDEO_FRAME_PLANE_STRIDE(frame, 0);
+}
+
+void paintBlack(GstVideoFrame* to) {
+  const auto bytes = static_cast<size_t>(GST_VIDEO_FRAME_WIDTH(to)) *
+                     static_cast<size_t>(GST_VIDEO_FRAME_COMP_PSTRIDE(to, 0));
+  for (int y = 0; y < GST_VIDEO_FRAME_HEIGHT(to); ++y) std::memset(rowOf(to, y), 0, bytes);
+}
+
+/// shade() turns a value of the result into a pixel as it lies in memory.
+template <class Value, class Shade>
+void paint(ImageView<const Value> from, GstVideoFrame* to, Shade shade) {
+  if (from.size.isEmpty()) return paintBlack(to);
+  const FrameMap map{from.size, {GST_VIDEO_FRAME_WIDTH(to), GST_VIDEO_FRAME_HEIGHT(to)}};
+  const bool isScaled = map.from != map.to;
+  for (int y = 0; y < map.to.height; ++y) {
+    const Value* values = from.row(map.sourceY(y));
+    uint8_t* pixels = rowOf(to, y);
+    for (int x = 0; x < map.to.width; ++x) {
+      const auto pixel = shade(values[isScaled ? map.sourceX(x) : x]);
+      std::memcpy(pixels + static_cast<size_t>(x) * sizeof pixel, &pixel, sizeof pixel);
+    }
+  }
+}
+
+void paintForeground(const Foreground& foreground, GstVideoFrame* to) {
+  paint(foreground.mask.view(), to,
+        [](uint8_t value) -> uint8_t { return value == kForegroundPixel ? kWhite : 0; });
+}
+
+void paintLabels(const Labels& labels, GstVideoFrame* to) {
+  if (GST_VIDEO_FRAME_FORMAT(to) == GST_VIDEO_FORMAT_GRAY16_BE)
+    paint(labels.ids.view(), to, [](uint16_t label) { return GUINT16_TO_BE(label); });
+  else
+    paint(labels.ids.view(), to, [](uint16_t label) { return GUINT16_TO_LE(label); });
+}
+
+void paintObjects(const Objects& objects, GstVideoFrame* to) {
+  paint(objects.slots.view(), to, [&](uint16_t slot) -> uint8_t {
+    if (slot == 0 || slot > objects.objects.size()) return 0;
+    const ObjectState state = objects.objects[slot - 1].state;
+    return state == ObjectState::Tracked || state == ObjectState::Stopped ? kWhite : 0;
+  });
+}
+
+template <class Payload, class Paint>
+bool paintResult(GstBuffer* from, GstVideoFrame* to, Paint paintOne) {
+  const auto result = findResult<Payload>(from);
+  if (result && result->status != Status::Skipped)
+    paintOne(*result, to);
+  else
+    paintBlack(to);
+  return result != nullptr;
+}
+
+}  // namespace
+
+const char* producerOf(MaskSource source) {
+  switch (source) {
+    case MaskSource::Foreground:
+      return "bgremove";
+    case MaskSource::Labels:
+      return "hsvsegment";
+    case MaskSource::Objects:
+      break;
+  }
+  return "mrfmerge";
+}
+
+void setFormats(GstStructure* caps, MaskSource source) {
+  if (source != MaskSource::Labels) {
+    gst_structure_set(caps, "format", G_TYPE_STRING, "GRAY8", nullptr);
+    return;
+  }
+  GValue formats = G_VALUE_INIT;
+  g_value_init(&formats, GST_TYPE_LIST);
+  for (const char* name : {"GRAY16_BE", "GRAY16_LE"}) {
+    GValue format = G_VALUE_INIT;
+    g_value_init(&format, G_TYPE_STRING);
+    g_value_set_static_string(&format, name);
+    gst_value_list_append_and_take_value(&formats, &format);
+  }
+  gst_structure_take_value(caps, "format", &formats);
+}
+
+bool paintMask(MaskSource source, GstBuffer* from, GstVideoFrame* to) {
+  switch (source) {
+    case MaskSource::Foreground:
+      return paintResult<Foreground>(from, to, paintForeground);
+    case MaskSource::Labels:
+      return paintResult<Labels>(from, to, paintLabels);
+    case MaskSource::Objects:
+      break;
+  }
+  return paintResult<Objects>(from, to, paintObjects);
+}
+
+}  // namespace rg
