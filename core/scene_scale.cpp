@@ -11,8 +11,8 @@ namespace rg {
 namespace {
 
 constexpr int kLineBits = 16;
-constexpr int kLeastSamples = 10;  // Of all bands together, before anything is said.
-constexpr int kLeastPerBand = 3;   // Before a band's median counts.
+constexpr int kLeastSamples = 10;    // Of all bands together, before anything is said.
+constexpr size_t kLeastPerBand = 3;  // Before a band's median counts.
 
 /// The value below which half of the weight lies; the list is sorted by value here.
 template <size_t n>
@@ -38,7 +38,7 @@ void SceneScale::reset(Size frame) {
 }
 
 void SceneScale::learn(int footPx, Extent size) {
-  if (frame_.height <= 0 || size.width <= 0 || size.height <= 0) return;
+  if (frame_.height <= 0 || size.height <= 0) return;
   const int row = std::clamp(footPx, 0, frame_.height - 1);
   Band& band = bands_[static_cast<size_t>(int64_t{row} * kBands / frame_.height)];
   band.samples[band.seen % kSamples] = {row, size.width, size.height};
@@ -57,12 +57,17 @@ SceneScale::Line SceneScale::fit(int32_t Sample::*value) const {
   size_t count = 0;
   std::array<std::pair<int64_t, int64_t>, kSamples> list;
   for (const Band& band : bands_) {
-    if (band.count() < kLeastPerBand) continue;
-    const auto n = static_cast<size_t>(band.count());
-    for (size_t i = 0; i < n; ++i) list[i] = {band.samples[i].foot, 1};
-    const int64_t foot = weightedMedian(list, n);
-    for (size_t i = 0; i < n; ++i) list[i] = {band.samples[i].*value, 1};
-    medians[count++] = {foot, weightedMedian(list, n), band.count()};
+    std::array<std::pair<int64_t, int64_t>, kSamples> feet;
+    size_t n = 0;
+    for (size_t i = 0; i < static_cast<size_t>(band.count()); ++i) {
+      const Sample& sample = band.samples[i];
+      if (sample.*value == 0) continue;
+      // By height: a body in two pieces counts no more than a whole one.
+      feet[n] = {sample.foot, sample.height};
+      list[n++] = {sample.*value, sample.height};
+    }
+    if (n < kLeastPerBand) continue;
+    medians[count++] = {weightedMedian(feet, n), weightedMedian(list, n), static_cast<int64_t>(n)};
   }
   std::array<std::pair<int64_t, int64_t>, kBands * kBands / 2> slopes;
   size_t pairs = 0;
@@ -102,7 +107,9 @@ void SceneScale::refit() {
   highFoot_ = 0;
   for (const Band& band : bands_) {
     samples += band.count();
-    if (band.count() < kLeastPerBand) continue;
+    int wide = 0;
+    for (int i = 0; i < band.count(); ++i) wide += band.samples[static_cast<size_t>(i)].width > 0;
+    if (wide < static_cast<int>(kLeastPerBand)) continue;
     ++usable;
     for (int i = 0; i < band.count(); ++i) {
       lowFoot_ = std::min(lowFoot_, band.samples[static_cast<size_t>(i)].foot);

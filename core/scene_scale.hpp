@@ -21,7 +21,7 @@ struct Extent {
 class SceneScale {
  public:
   void reset(Size frame);
-  /// Something with its feet at row `footPx` was seen whole and alone.
+  /// Something with its feet at row `footPx` was seen whole. Width 0: of unknown width.
   void learn(int footPx, Extent size);
 
   /// Enough was seen to say how large things are.

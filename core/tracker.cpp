@@ -81,7 +81,10 @@ void Tracker::update(const Evidence& evidence, std::span<const Group> groups, in
     scale_.reset(frame_);
   }
   stepPx_ = evidence.stepPx;
-  for (Track& track : tracks_) advance(track, stepNs);
+  for (Track& track : tracks_) {
+    advance(track, stepNs);
+    fitSizeToScene(track);
+  }
   lookForTracks(evidence);
   giveGroups(evidence, groups);
   sight(evidence, groups);
@@ -89,6 +92,8 @@ void Tracker::update(const Evidence& evidence, std::span<const Group> groups, in
   findNewcomers(evidence, params);
   rejoin();
   for (size_t i = 0; i < sightings_.size(); ++i) learnSize(i, evidence);
+  learnScale(evidence);
+  joinDoubles(stepNs);
   settle(stepNs, params);
 }
 

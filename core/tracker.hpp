@@ -42,6 +42,10 @@ struct Track {
   int32_t learntX = 0, learntFoot = 0;  ///< Where the scene's scale last learnt from it.
   uint16_t fill = 150;                  ///< Share of its box that is foreground, in 1/256.
   bool isSeen = false;                  ///< In this frame.
+  int64_t doubleNs = 0;                 ///< Since it looks like a part of another track.
+  bool isOver = false;
+  bool hasMoved = false;
+  bool isFromBorder = false;  ///< First seen where things come into the picture.
   bool isConfirmed = false;
 
   [[nodiscard]] Box box() const;  ///< In pixels.
@@ -104,6 +108,10 @@ class Tracker {
   void learnSize(size_t index, const Evidence& evidence);
   void begin(const Newcomer& newcomer);
   [[nodiscard]] bool isCovered(const Track& track) const;
+  void fitSizeToScene(Track& track) const;
+  void learnScale(const Evidence& evidence);
+  [[nodiscard]] bool areOneBody(size_t a, size_t b) const;
+  void joinDoubles(int64_t stepNs);
   void settleState(Track& track, int64_t stepNs) const;
   void settle(int64_t stepNs, const TrackerParams& params);
 
@@ -124,6 +132,8 @@ class Tracker {
   PieceScratch pieceScratch_;
   std::vector<Newcomer> newcomers_;
   std::vector<int> newcomerOf_;  ///< Of each piece, −1 = none.
+  std::vector<uint16_t> noOwner_;
+  std::vector<uint32_t> blobOf_, blobCells_;
   std::vector<int> trackOfNewcomer_;
   std::vector<uint32_t> touching_;
   std::vector<uint16_t> trackIndex_;

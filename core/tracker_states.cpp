@@ -11,7 +11,11 @@ namespace {
 constexpr int kUnit = kPositionUnit;
 constexpr uint32_t kConfirmHits = 3;
 constexpr int64_t kFlickerNs = 250'000'000;  // A new track that is unseen for longer was nothing.
+constexpr int64_t kDoubleNs = 500'000'000;   // One body for so long, two tracks are one.
 constexpr int64_t kMissNs = 400'000'000;     // Unseen for longer without a reason, it is lost.
+// A new thing is trusted once it has moved; what creeps more slowly than its place in this time is
+// the shape of something that left, which the background takes back from its borders.
+constexpr int64_t kCreepNs = 2'000'000'000;
 constexpr int64_t kStillNs = 1'000'000'000;  // In one place for so long, it has stopped.
 
 int32_t mix(int32_t old, int64_t fresh, int64_t oldWeight) {
@@ -38,12 +42,115 @@ void Tracker::learnSize(size_t index, const Evidence& e) {
     const int64_t fill = std::clamp<int64_t>(int64_t{s.cells} * 256 / s.boxCells, 64, 256);
     track.fill = static_cast<uint16_t>(mix(track.fill, fill, 7));
   }
-  const int64_t dx = track.x - track.learntX, dy = track.foot - track.learntFoot;
-  const int64_t half = track.size.height / 2;
-  if (!track.isConfirmed || s.othersCells > 0 || dx * dx + dy * dy < half * half) return;
-  track.learntX = track.x;
-  track.learntFoot = track.foot;
-  scale_.learn(s.box.bottom(), {s.box.width * kUnit, s.box.height * kUnit});
+}
+
+/// Every half height of a track's way the scene learns from the blob that the track is in, whatever
+/// tracks say of sizes: a wrong scale must not confirm itself. Blobs of several things side by side
+/// don't count; tracks above each other may be one thing that was taken apart.
+void Tracker::learnScale(const Evidence& e) {
+  noOwner_.assign(e.group.size(), 0);
+  findPieces(e, noOwner_, pieceScratch_, pieces_);
+  blobOf_.assign(sightings_.size(), 0);
+  blobCells_.assign(pieces_.size() + 1, 0);
+  for (size_t i = 0; i < sightings_.size(); ++i) {
+    if (!tracks_[i].isSeen || sightings_[i].task < 0) continue;
+    const Box& fitted = tasks_[static_cast<size_t>(sightings_[i].task)].fitted;
+    const Box box = intersect(fitted, boundsOf(e.grid));
+    for (const bool isCounting : {true, false})
+      for (int y = box.y; y < box.bottom(); ++y)
+        for (int x = box.x; x < box.right(); ++x) {
+          const uint32_t blob = pieceScratch_.label[e.at(x, y)];
+          if (blob == 0 || owner_[e.at(x, y)] != i + 1) continue;
+          if (isCounting)
+            ++blobCells_[blob];
+          else if (blobCells_[blob] > blobCells_[blobOf_[i]])
+            blobOf_[i] = blob;
+        }
+    std::fill(blobCells_.begin(), blobCells_.end(), 0);
+  }
+  for (size_t i = 0; i < sightings_.size(); ++i) {
+    Track& track = tracks_[i];
+    const int64_t dx = track.x - track.learntX, dy = track.foot - track.learntFoot;
+    const int64_t half = track.size.height / 2;
+    if (!track.isConfirmed || blobOf_[i] == 0 || dx * dx + dy * dy < half * half) continue;
+    Box box = pieces_[blobOf_[i] - 1].box;
+    if (box.x <= 0 || box.y <= 0 || box.right() >= e.grid.width || box.bottom() >= e.grid.height)
+      continue;
+    bool isAlone = true, isOneThing = true;
+    for (size_t j = 0; j < sightings_.size(); ++j) {
+      if (j == i || blobOf_[j] != blobOf_[i]) continue;
+      isAlone = false;
+      const Box mine = track.box(), other = tracks_[j].box();
+      const int columns = std::min(mine.right(), other.right()) - std::max(mine.x, other.x);
+      isOneThing &= 2 * columns >= std::min(mine.width, other.width);
+    }
+    if (!isOneThing) continue;
+    track.learntX = track.x;
+    track.learntFoot = track.foot;
+    const int unit = e.stepPx * kUnit;
+    scale_.learn(box.bottom() * e.stepPx, {isAlone ? box.width * unit : 0, box.height * unit});
+  }
+}
+
+/// Whether two tracks seem to be one body: they lie above each other as its halves do, or together
+/// show no more than one of them should.
+bool Tracker::areOneBody(size_t a, size_t b) const {
+  const Track &p = tracks_[a], &q = tracks_[b];
+  const Box first = p.box(), second = q.box(), both = unite(first, second);
+  const int columns = std::min(first.right(), second.right()) - std::max(first.x, second.x);
+  if (5 * columns < 3 * std::min(first.width, second.width)) return false;
+  if (!scale_.isKnown()) {
+    const int rows = std::min(first.bottom(), second.bottom()) - std::max(first.y, second.y);
+    const int least = std::min(first.height, second.height);
+    return 5 * rows < 2 * least && 4 * rows > -least;
+  }
+  const Extent usual = scale_.at(both.bottom());
+  if (4 * both.height * kUnit < 5 * usual.height) return true;
+  const Sighting &s = sightings_[a], &t = sightings_[b];
+  const uint64_t one = uint64_t{std::max(s.boxCells, t.boxCells)} * std::max(p.fill, q.fill);
+  return 256 * uint64_t{s.cells + t.cells} * 4 < 5 * one &&
+         2 * intersect(first, second).area() > std::min(first.area(), second.area());
+}
+
+/// Ends tracks that were one body with an older one for a while.
+void Tracker::joinDoubles(int64_t stepNs) {
+  for (size_t b = 0; b < sightings_.size(); ++b) {
+    Track& track = tracks_[b];
+    if (!track.isSeen) continue;
+    size_t partner = b;
+    for (size_t a = 0; a < b && partner == b; ++a)
+      if (tracks_[a].isSeen && !tracks_[a].isOver && areOneBody(a, b)) partner = a;
+    if (partner == b) {
+      track.doubleNs = 0;
+      continue;
+    }
+    track.doubleNs += stepNs;
+    if (track.doubleNs < kDoubleNs) continue;
+    Track& kept = tracks_[partner];
+    if (!scale_.isKnown()) {
+      const Box both = unite(kept.box(), track.box());
+      kept.x = (2 * both.x + both.width) * kUnit / 2;
+      kept.foot = both.bottom() * kUnit;
+      kept.size = {both.width * kUnit, both.height * kUnit};
+      kept.sizeSamples = 0;
+    }
+    track.isOver = true;
+    for (uint16_t& owner : owner_)
+      if (owner == b + 1) owner = static_cast<uint16_t>(partner + 1);
+  }
+}
+
+/// Where all things are of one size, a track that isn't was a part of one, or several at once: its
+/// box becomes a usual one, and what that leaves over becomes a newcomer.
+void Tracker::fitSizeToScene(Track& track) const {
+  if (!scale_.isUniform()) return;
+  const Extent usual = scale_.at(track.foot / kUnit);
+  const auto limit = [](int32_t& value, int64_t expected, int64_t least, int64_t most) {
+    value = static_cast<int32_t>(
+        std::clamp<int64_t>(value, expected * least / 100, expected * most / 100));
+  };
+  limit(track.size.height, usual.height, 80, 130);
+  limit(track.size.width, usual.width, 65, 145);
 }
 
 /// Whether other tracks stand in front of most of this one.
@@ -58,14 +165,22 @@ bool Tracker::isCovered(const Track& track) const {
 
 void Tracker::settleState(Track& track, int64_t stepNs) const {
   const int64_t dx = track.x - track.stillX, dy = track.foot - track.stillFoot;
-  const int64_t leave = track.size.height / 6;
+  // In the middle of the picture only what left something behind appears, so more is asked there.
+  const int64_t leave = track.size.height / (track.isConfirmed || track.isFromBorder ? 6 : 3);
   track.stillNs += stepNs;
-  if (dx * dx + dy * dy > leave * leave) {
+  const bool hasLeft = dx * dx + dy * dy > leave * leave;
+  if (hasLeft) {
     track.stillNs = 0;
     track.stillX = track.x;
     track.stillFoot = track.foot;
   }
-  if (track.hits >= kConfirmHits) track.isConfirmed = true;
+  if (!track.isConfirmed && track.stillNs > kCreepNs) {
+    track.stillNs = 0;
+    track.stillX = track.x;
+    track.stillFoot = track.foot;
+  }
+  track.hasMoved |= track.stillNs == 0 && hasLeft;
+  if (track.hits >= kConfirmHits && track.hasMoved) track.isConfirmed = true;
   if (!track.isConfirmed) return;
   if (track.isSeen)
     track.state = track.stillNs >= kStillNs ? ObjectState::Stopped : ObjectState::Tracked;
@@ -88,8 +203,9 @@ void Tracker::settle(int64_t stepNs, const TrackerParams& params) {
     const Box box = track.box();
     const bool hasLeft = !track.isSeen && frame_.width > 0 &&
                          2 * intersect(box, boundsOf(frame_)).area() < box.area();
-    const bool isOver = track.isConfirmed ? track.unseenNs > params.maxLostNs || hasLeft
-                                          : track.unseenNs > kFlickerNs || hasLeft;
+    const bool isOver =
+        track.isOver || hasLeft ||
+        (track.isConfirmed ? track.unseenNs > params.maxLostNs : track.unseenNs > kFlickerNs);
     if (!wasConfirmed && track.isConfirmed) events_.push_back({EventKind::ObjectNew, {track.id}});
     if (isOver) {
       if (track.isConfirmed) events_.push_back({EventKind::ObjectEnd, {track.id}});
