@@ -61,23 +61,6 @@ struct Box {
   return {box.x - margin, box.y - margin, box.width + 2 * margin, box.height + 2 * margin};
 }
 
-/// A box of a frame of size `from` on that frame scaled to size `to`: its edges rounded down. An
-/// area keeps at least one pixel.
-[[nodiscard]] constexpr Box mapBox(const Box& box, Size from, Size to) {
-  if (from == to || from.isEmpty()) return box;
-  const auto map = [](int64_t value, int have, int want) {
-    const int64_t scaled = value * want;
-    return static_cast<int>(scaled >= 0 ? scaled / have : -((-scaled + have - 1) / have));
-  };
-  const int x = map(box.x, from.width, to.width);
-  const int y = map(box.y, from.height, to.height);
-  const int right = map(box.right(), from.width, to.width);
-  const int bottom = map(box.bottom(), from.height, to.height);
-  return {x, y, std::max(right - x, box.width > 0 ? 1 : 0),
-          std::max(bottom - y, box.height > 0 ? 1 : 0)};
-}
-static_assert(mapBox({-3, 2, 4, 4}, {4, 4}, {2, 2}) == Box{-2, 1, 2, 2});
-
 [[nodiscard]] constexpr Box boundsOf(Size size) {
   return {0, 0, size.width, size.height};
 }

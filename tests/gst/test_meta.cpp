@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The public header: what applications read from a buffer.
+#include "gst/meta/result_meta.hpp"
+#include "tests/support/harness.hpp"
+
+#include <gst/video/gstvideometa.h>
+#include <gtest/gtest.h>
+
+#include <memory>
+
+namespace rg {
+namespace {
+
+using testing::BufferPtr;
+
+std::shared_ptr<Graph> twoRegions() {
+  auto graph = std::make_shared<Graph>();
+  graph->size = {8, 4};
+  graph->status = Status::Ok;
+  graph->regions = {{12, {0, 0, 4, 3}, 384, 256, {1, 2, 3}},
+                    {20, {4, 0, 4, 4}, 1408, 384, {4, 5, 6}}};
+  graph->arcs = {{1, 2, 4, 10}};
+  return graph;
+}
+
+TEST(GraphMeta, TellsRegionsAndArcs) {
+  const BufferPtr buffer(gst_buffer_new());
+  EXPECT_EQ(gst_buffer_get_region_graph_meta(buffer.get()), nullptr);
+  attachResult<Graph>(buffer.get(), twoRegions());
+  GstRegionGraphMeta* meta = gst_buffer_get_region_graph_meta(buffer.get());
+  ASSERT_NE(meta, nullptr);
+  gint width = 0, height = 0;
+  EXPECT_EQ(gst_region_graph_meta_get_status(meta, &width, &height), GST_REGION_STATUS_OK);
+  EXPECT_EQ(width, 8);
+  EXPECT_EQ(height, 4);
+  ASSERT_EQ(gst_region_graph_meta_get_n_regions(meta), 2u);
+  GstRegion region;
+  ASSERT_TRUE(gst_region_graph_meta_get_region(meta, 1, &region));
+  EXPECT_EQ(region.id, 2u);
+  EXPECT_EQ(region.area, 20u);
+  EXPECT_EQ(region.box.x, 4);
+  EXPECT_DOUBLE_EQ(region.centroid_x, 5.5);
+  EXPECT_EQ(region.colour.green, 5);
+  EXPECT_FALSE(gst_region_graph_meta_get_region(meta, 2, &region));
+  GstRegionArc arc;
+  ASSERT_TRUE(gst_region_graph_meta_get_arc(meta, 0, &arc));
+  EXPECT_EQ(arc.a, 1u);
+  EXPECT_EQ(arc.b, 2u);
+  EXPECT_DOUBLE_EQ(arc.contrast, 2.5);
+  EXPECT_FALSE(gst_region_graph_meta_get_arc(meta, 1, &arc));
+}
+
+TEST(MotionMeta, TellsPixelsAndShares) {
+  const BufferPtr buffer(gst_buffer_new());
+  auto motion = std::make_shared<Motion>();
+  motion->regions = {{-24, 8, 7, 128}};
+  attachResult<Motion>(buffer.get(), motion);
+  GstRegionVector vector;
+  GstRegionMotionMeta* meta = gst_buffer_get_region_motion_meta(buffer.get());
+  ASSERT_TRUE(gst_region_motion_meta_get_vector(meta, 0, &vector));
+  EXPECT_DOUBLE_EQ(vector.dx, -1.5);
+  EXPECT_DOUBLE_EQ(vector.dy, 0.5);
+  EXPECT_DOUBLE_EQ(vector.reliability, 0.5);
+}
+
+TEST(ObjectsMeta, TellsObjectsParentsAndContours) {
+  const BufferPtr buffer(gst_buffer_new());
+  auto objects = std::make_shared<Objects>();
+  Object object;
+  object.id = 7;
+  object.state = ObjectState::Stopped;
+  object.box = {-2, 3, 10, 20};
+  object.centroidX = 40;
+  object.speedX = -32;
+  object.hasSpeed = true;
+  object.parents = {3, 5};
+  object.contour = {{1, 2}, {3, 4}};
+  objects->objects = {object};
+  objects->regionObject = {0, 7};
+  objects->cameraDx = 24;
+  attachResult<Objects>(buffer.get(), objects);
+  GstRegionObjectsMeta* meta = gst_buffer_get_region_objects_meta(buffer.get());
+  GstRegionObject out;
+  ASSERT_TRUE(gst_region_objects_meta_get_object(meta, 0, &out));
+  EXPECT_EQ(out.id, 7u);
+  EXPECT_EQ(out.state, GST_REGION_OBJECT_STATE_STOPPED);
+  EXPECT_EQ(out.box.x, -2);
+  EXPECT_DOUBLE_EQ(out.centroid_x, 2.5);
+  EXPECT_DOUBLE_EQ(out.velocity_x, -2.0);
+  EXPECT_EQ(out.n_parents, 2u);
+  EXPECT_EQ(gst_region_objects_meta_get_parent(meta, 0, 1), 5u);
+  EXPECT_EQ(gst_region_objects_meta_get_parent(meta, 0, 2), 0u);
+  gint x = 0, y = 0;
+  ASSERT_TRUE(gst_region_objects_meta_get_contour_point(meta, 0, 1, &x, &y));
+  EXPECT_EQ(x, 3);
+  EXPECT_EQ(y, 4);
+  EXPECT_FALSE(gst_region_objects_meta_get_contour_point(meta, 1, 0, &x, &y));
+  EXPECT_EQ(gst_region_objects_meta_get_region_object(meta, 2), 7u);
+  EXPECT_EQ(gst_region_objects_meta_get_region_object(meta, 0), 0u);
+  EXPECT_EQ(gst_region_objects_meta_get_region_object(meta, 3), 0u);
+  gdouble dx = 0, dy = 1;
+  gst_region_objects_meta_get_camera_motion(meta, &dx, &dy);
+  EXPECT_DOUBLE_EQ(dx, 1.5);
+  EXPECT_DOUBLE_EQ(dy, 0.0);
+}
+
+std::shared_ptr<Foreground> smallMask() {
+  auto foreground = std::make_shared<Foreground>();
+  foreground->size = {3, 2};
+  foreground->status = Status::Ok;
+  foreground->mask.resize(foreground->size);
+  foreground->mask.fill(kBackgroundPixel);
+  foreground->mask.at(2, 1) = kForegroundPixel;
+  return foreground;
+}
+
+TEST(Plane, OutlivesItsBuffer) {
+  BufferPtr buffer(gst_buffer_new());
+  attachResult<Foreground>(buffer.get(), smallMask());
+  GstRegionPlane plane;
+  ASSERT_TRUE(gst_region_foreground_meta_map(gst_buffer_get_region_foreground_meta(buffer.get()),
+                                             &plane, nullptr));
+  buffer.reset();
+  EXPECT_EQ(plane.width, 3);
+  EXPECT_EQ(plane.height, 2);
+  EXPECT_EQ(plane.pixel_bytes, 1u);
+  EXPECT_EQ(static_cast<const guint8*>(plane.data)[plane.stride + 2], 255);
+  gst_region_plane_unmap(&plane);
+  EXPECT_EQ(plane.data, nullptr);
+  gst_region_plane_unmap(&plane);
+}
+
+TEST(Plane, OfASkippedFrameIsAnError) {
+  const BufferPtr buffer(gst_buffer_new());
+  attachResult<Foreground>(buffer.get(), std::make_shared<Foreground>());
+  GstRegionPlane plane;
+  GError* error = nullptr;
+  EXPECT_FALSE(gst_region_foreground_meta_map(gst_buffer_get_region_foreground_meta(buffer.get()),
+                                              &plane, &error));
+  ASSERT_NE(error, nullptr);
+  g_error_free(error);
+}
+
+TEST(Meta, CopiesShareOnePayloadAndFreeIt) {
+  const auto payload = smallMask();
+  {
+    const BufferPtr buffer(gst_buffer_new());
+    attachResult<Foreground>(buffer.get(), payload);
+    const BufferPtr copy(gst_buffer_copy(buffer.get()));
+    EXPECT_EQ(findResult<Foreground>(copy.get()).get(), payload.get());
+    EXPECT_EQ(payload.use_count(), 3);
+  }
+  EXPECT_EQ(payload.use_count(), 1);
+}
+
+TEST(Meta, APartOfABufferLosesIt) {
+  const BufferPtr buffer(gst_buffer_new_allocate(nullptr, 100, nullptr));
+  attachResult<Foreground>(buffer.get(), smallMask());
+  const BufferPtr part(gst_buffer_copy_region(buffer.get(), GST_BUFFER_COPY_ALL, 10, 20));
+  EXPECT_EQ(findResult<Foreground>(part.get()), nullptr);
+}
+
+TEST(Meta, SurvivesConversionAndScalingAndIsDroppedByCropping) {
+  const auto passes = [](const char* line) {
+    testing::Chain chain(line, {"BGRx", 32, 32});
+    BufferPtr frame = testing::paint(chain.caps(), 0, testing::square(4, 4, 9));
+    attachResult<Foreground>(frame.get(), smallMask());
+    const BufferPtr out = chain.pass(std::move(frame));
+    return out && findResult<Foreground>(out.get()) != nullptr;
+  };
+  EXPECT_TRUE(passes("videoconvert ! capsfilter caps=video/x-raw,format=I420"));
+  EXPECT_TRUE(passes("videoscale ! capsfilter caps=video/x-raw,width=16,height=16"));
+  EXPECT_FALSE(passes("videocrop left=8"));
+}
+
+}  // namespace
+}  // namespace rg
