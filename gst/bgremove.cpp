@@ -115,11 +115,18 @@ class BgRemove final : public StageFilter {
 const Settings kDefaults;
 const FilterDescription kDescription{
     .elementName = "bgremove",
-    .typeName = "GstRegionBgRemove",
+    .typeName = "GstBgRemove",
     .longName = "Background removal",
     .klass = "Filter/Analyzer/Video",
     .description =
-        "Marks the moving foreground of a still camera's picture in a meta on each buffer",
+        "Tells the moving foreground of a still camera's picture from its background. "
+        "Attaches a mask (0 background, 128 shadow, 255 foreground) and the boxes of its "
+        "connected parts to each buffer as a meta; pixels pass untouched. First of the "
+        "five stages; leave it out for a moving camera",
+    .example =
+        "gst-launch-1.0 videotestsrc pattern=ball num-buffers=100 ! "
+        "video/x-raw,format=I420 ! bgremove ! regionmask source=foreground ! pngenc ! "
+        "multifilesink location=mask-%03d.png",
     .caps = kPixelCaps,
     .properties = kProperties,
     .defaults = &kDefaults,

@@ -151,11 +151,18 @@ class HsvSegment final : public StageFilter {
 const Settings kDefaults;
 const FilterDescription kDescription{
     .elementName = "hsvsegment",
-    .typeName = "GstRegionHsvSegment",
+    .typeName = "GstHsvSegment",
     .longName = "Colour segmentation",
     .klass = "Filter/Analyzer/Video",
     .description =
-        "Divides frame or foreground into regions of one colour, in a meta on each buffer",
+        "Divides the whole frame, or the foreground that bgremove found, into regions of "
+        "one colour. Attaches the number of its region to each pixel as a meta; pixels "
+        "pass untouched. Second of the five stages, needs bgremove only for "
+        "scope=foreground",
+    .example =
+        "gst-launch-1.0 videotestsrc pattern=ball num-buffers=100 ! "
+        "video/x-raw,format=I420 ! hsvsegment max-regions=160 ! regionmask source=labels "
+        "! pngenc ! multifilesink location=labels-%03d.png",
     .caps = kPixelCaps,
     .properties = kProperties,
     .defaults = &kDefaults,

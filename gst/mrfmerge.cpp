@@ -89,12 +89,19 @@ class MrfMerge final : public ChainedFilter<Settings, ObjectStage, Motion> {
 const Settings kDefaults;
 const FilterDescription kDescription{
     .elementName = "mrfmerge",
-    .typeName = "GstRegionMrfMerge",
+    .typeName = "GstMrfMerge",
     .longName = "Object tracking",
     .klass = "Filter/Analyzer/Video",
     .description =
-        "Merges regions that move alike into objects and follows them, in metas on each "
-        "buffer and element messages",
+        "Merges regions that move alike into objects and follows these from frame to "
+        "frame, through stops and occlusions. Attaches the objects to each buffer as a "
+        "meta and as GstVideoRegionOfInterestMeta, and tells their beginning, end, merge "
+        "and split by element messages; pixels pass untouched. Last of the five stages, "
+        "needs prmmotion",
+    .example =
+        "gst-launch-1.0 videotestsrc pattern=ball num-buffers=100 ! "
+        "video/x-raw,format=I420 ! bgremove ! hsvsegment ! srg ! prmmotion ! mrfmerge ! "
+        "regionwrite ! fakesink",
     .caps = kMetaCaps,
     .properties = kProperties,
     .defaults = &kDefaults,

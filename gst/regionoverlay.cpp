@@ -186,6 +186,10 @@ const FilterDescription kDescription{
     .description =
         "Draws objects' boxes, numbers, trails, outlines and vectors and the region graph; can "
         "black out the background",
+    .example =
+        "gst-launch-1.0 videotestsrc pattern=ball num-buffers=100 ! video/x-raw,format=I420 ! "
+        "regiontrack ! regionoverlay ! videoconvert ! jpegenc ! multifilesink "
+        "location=frame-%03d.jpg",
     .caps = kPixelCaps,
     .properties = kProperties,
     .defaults = &kDefaults,

@@ -172,6 +172,9 @@ const FilterDescription kDescription{
     .description =
         "Writes objects or regions of each frame to a file as JSON lines, MOTChallenge CSV or "
         "region CSV, and passes the frames on untouched",
+    .example =
+        "gst-launch-1.0 videotestsrc pattern=ball num-buffers=100 ! video/x-raw,format=I420 ! "
+        "regiontrack ! regionwrite location=objects.jsonl ! fakesink",
     .caps = kMetaCaps,
     .properties = kProperties,
     .defaults = &kDefaults,

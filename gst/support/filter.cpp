@@ -188,6 +188,7 @@ struct FilterShell {
     auto* element = GST_ELEMENT_CLASS(klass);
     gst_element_class_set_static_metadata(element, about.longName, about.klass, about.description,
                                           "The gst-regiongraph developers");
+    gst_element_class_add_static_metadata(element, "example", about.example);
     GstCaps* caps = gst_caps_from_string(about.caps);
     for (const auto& [name, direction] : {std::pair{"sink", GST_PAD_SINK}, {"src", GST_PAD_SRC}})
       gst_element_class_add_pad_template(

@@ -25,7 +25,8 @@ struct FilterDescription {
   const char* longName;
   const char* klass;
   const char* description;
-  const char* caps;  ///< Of both pads.
+  const char* example;  ///< A launch line that runs as it stands.
+  const char* caps;     ///< Of both pads.
   std::span<const Property> properties;
   const void* defaults;  ///< A fresh struct of settings.
   Filter* (*create)(GstBaseTransform* element);

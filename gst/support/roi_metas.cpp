@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "gst/support/roi_metas.hpp"
 
+#include "core/mapping.hpp"
+
 #include <gst/video/gstvideometa.h>
 
 namespace rg {
@@ -27,8 +29,9 @@ void addParams(GstVideoRegionOfInterestMeta* roi, const Object& object, const Bo
 
 void addRoiMetas(GstBuffer* buffer, const GstVideoInfo& info, const Objects& objects) {
   const Size frame{GST_VIDEO_INFO_WIDTH(&info), GST_VIDEO_INFO_HEIGHT(&info)};
+  const FrameMap map = mapBetween(objects.size, frame);
   for (const Object& object : objects.objects) {
-    const Box box = intersect(mapBox(object.box, objects.size, frame), boundsOf(frame));
+    const Box box = intersect(map.box(object.box), boundsOf(frame));
     if (!isPresent(object.state) || box.isEmpty()) continue;
     auto* roi = gst_buffer_add_video_region_of_interest_meta(
         buffer, "object", static_cast<guint>(box.x), static_cast<guint>(box.y),
