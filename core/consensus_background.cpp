@@ -183,15 +183,19 @@ void measure(const SmoothPicture& picture, const ConsensusBackground& model,
   });
 }
 
-void findRadii(const ConsensusBackground& model, int least, const Executor& executor,
-               Image<uint8_t>& radii) {
+void findRadii(const SmoothPicture& picture, const ConsensusBackground& model,
+               const Tolerance& tolerance, const Executor& executor, Image<uint8_t>& radii) {
   radii.resize(model.noise.size());
   executor.forRows(radii.height(), [&](int first, int last) {
     for (int y = first; y < last; ++y) {
       const uint8_t *noise = model.noise.row(y), *unrest = model.unrest.row(y);
+      const uint8_t* brightness = picture.planes[0].row(y);
       uint8_t* out = radii.row(y);
-      for (int x = 0; x < radii.width(); ++x)
-        out[x] = static_cast<uint8_t>(std::min(255, least + (noise[x] >> 2) + (unrest[x] >> 4)));
+      for (int x = 0; x < radii.width(); ++x) {
+        const int usual = tolerance.least + (brightness[x] * tolerance.brightness >> 8);
+        // Noise is in eighths: twice its mean.
+        out[x] = static_cast<uint8_t>(std::min(255, usual + (noise[x] >> 2) + (unrest[x] >> 4)));
+      }
     }
   });
 }
@@ -213,6 +217,25 @@ void replaceWhere(ImageView<const uint8_t> places, const SmoothPicture& picture,
       for (int x = 0; x < picture.size().width; ++x) {
         if (places.row(y)[x] == 0) continue;
         for (uint32_t k = 0; k < kSamples; ++k) remember(picture, {x, y}, {x, y}, k, model);
+      }
+  });
+}
+
+void paintModel(const ConsensusBackground& model, const Executor& executor,
+                std::array<Image<uint8_t>, 3>& planes) {
+  constexpr int kShown = 4;
+  const Size size = model.noise.size();
+  for (int c = 0; c < model.channels; ++c) planes[at(c)].resize(size);
+  executor.forRows(size.height, [&](int first, int last) {
+    for (int y = first; y < last; ++y)
+      for (int c = 0; c < model.channels; ++c) {
+        std::array<const uint8_t*, kShown> rows{};
+        for (int k = 0; k < kShown; ++k)
+          rows[at(k)] = model.samples.row(sampleRow(model.channels, y, k * kSamples / kShown, c));
+        uint8_t* out = planes[at(c)].row(y);
+        for (int x = 0; x < size.width; ++x)
+          out[x] =
+              static_cast<uint8_t>((rows[0][x] + rows[1][x] + rows[2][x] + rows[3][x] + 2) >> 2);
       }
   });
 }

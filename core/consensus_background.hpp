@@ -47,9 +47,14 @@ struct Distances {
 void measure(const SmoothPicture& picture, const ConsensusBackground& model,
              const Executor& executor, Distances& out);
 
-/// The distance beyond which a pixel is foreground: `least` plus what noise and unrest say.
-void findRadii(const ConsensusBackground& model, int least, const Executor& executor,
-               Image<uint8_t>& radii);
+/// How far a pixel may be off in any case: sensors are noisier where it is bright.
+struct Tolerance {
+  int least = 8;       ///< Grey levels.
+  int brightness = 0;  ///< Of 256: share of the pixel's brightness that is added.
+};
+/// The distance beyond which a pixel is foreground: the tolerance and what noise and unrest add.
+void findRadii(const SmoothPicture& picture, const ConsensusBackground& model,
+               const Tolerance& tolerance, const Executor& executor, Image<uint8_t>& radii);
 
 /// How a frame is learnt.
 struct ConsensusRate {
@@ -67,5 +72,9 @@ void learn(const SmoothPicture& picture, const Verdicts& verdicts, const Distanc
 /// Forgets what was where `places` is set and remembers the picture instead.
 void replaceWhere(ImageView<const uint8_t> places, const SmoothPicture& picture,
                   const Executor& executor, ConsensusBackground& model);
+
+/// The model as a picture: the mean of a few remembered colours.
+void paintModel(const ConsensusBackground& model, const Executor& executor,
+                std::array<Image<uint8_t>, 3>& planes);
 
 }  // namespace rg

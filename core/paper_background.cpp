@@ -102,10 +102,10 @@ void PaperBackground::validate(const BackgroundJob& job, ImageView<uint8_t> mask
   });
   if (!job.params.findsShadows) return;
   paintMean(model_, job.executor, mean_);
-  const BackgroundView background = model_.channels == 1
-                                        ? BackgroundView{mean_[0], mean_[0], mean_[0]}
-                                        : BackgroundView{mean_[1], mean_[0], mean_[2]};
-  findShadows(*job.picture, background, mask, job.executor, shadow_);
+  const ColourPlanes background = model_.channels == 1 ? ColourPlanes{mean_[0], mean_[0], mean_[0]}
+                                                       : ColourPlanes{mean_[1], mean_[0], mean_[2]};
+  const ColourPlanes picture{job.picture->red(), job.picture->green(), job.picture->blue()};
+  findShadows(picture, background, mask, job.executor, shadow_);
   for (int y = 0; y < mask.height(); ++y)
     for (int x = 0; x < width; ++x)
       if (shadow_.row(y)[x] != 0) mask.row(y)[x] = kShadowPixel;

@@ -52,25 +52,26 @@ bool isDarkened(const WindowSums& s) {
   return rest <= s.count * kMostResidual * squareB;
 }
 
-bool keepsColour(const Picture& picture, const BackgroundView& background, Point p,
+bool keepsColour(const ColourPlanes& picture, const ColourPlanes& background, Point p,
                  const WindowSums& s) {
   const auto isNear = [&](ImageView<const uint8_t> now, ImageView<const uint8_t> before) {
     const int64_t off = now.at(p.x, p.y) * s.b - before.at(p.x, p.y) * s.i;
     return off <= kMostTint * s.b && -off <= kMostTint * s.b;
   };
-  return isNear(picture.red(), background.red) && isNear(picture.green(), background.green) &&
-         isNear(picture.blue(), background.blue);
+  return isNear(picture.red, background.red) && isNear(picture.green, background.green) &&
+         isNear(picture.blue, background.blue);
 }
 
-void markBlock(const Picture& picture, const BackgroundView& background, const Box& block,
+void markBlock(const ColourPlanes& picture, const ColourPlanes& background, const Box& block,
                const uint8_t* mask, uint8_t* shadow) {
   const int y = block.y;
   const int begin = std::max(0, block.x - kRadius);
-  const int end = std::min(picture.size().width, block.right() + kRadius);
+  const int end = std::min(picture.green.size.width, block.right() + kRadius);
   ColumnSums columns;
   // Green stands for brightness: luma may have another range than the colours.
-  sumColumns(picture.green(), background.green, y, begin, end, columns);
-  const int rows = std::min(picture.size().height - 1, y + kRadius) - std::max(0, y - kRadius) + 1;
+  sumColumns(picture.green, background.green, y, begin, end, columns);
+  const int rows =
+      std::min(picture.green.size.height - 1, y + kRadius) - std::max(0, y - kRadius) + 1;
   for (int x = block.x; x < block.right(); ++x) {
     if (mask[x] == 0) continue;
     WindowSums sums;
@@ -90,11 +91,11 @@ void markBlock(const Picture& picture, const BackgroundView& background, const B
 
 }  // namespace
 
-void findShadows(const Picture& picture, const BackgroundView& background,
+void findShadows(const ColourPlanes& picture, const ColourPlanes& background,
                  ImageView<const uint8_t> mask, const Executor& executor,
                  ImageView<uint8_t> shadow) {
-  const int width = picture.size().width;
-  executor.forRows(picture.size().height, [&](int first, int last) {
+  const int width = picture.green.size.width;
+  executor.forRows(picture.green.size.height, [&](int first, int last) {
     for (int y = first; y < last; ++y) {
       const uint8_t* row = mask.row(y);
       std::memset(shadow.row(y), 0, static_cast<size_t>(width));

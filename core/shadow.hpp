@@ -7,20 +7,19 @@
 
 #include "core/executor.hpp"
 #include "core/image.hpp"
-#include "core/picture.hpp"
 
 #include <cstdint>
 
 namespace rg {
 
-/// The background as it would look without objects. A grey one has all planes alike.
-struct BackgroundView {
+/// A picture to compare, or the background without objects. Grey ones have all planes alike.
+struct ColourPlanes {
   ImageView<const uint8_t> red, green, blue;
 };
 
 /// Sets `shadow` to 255 where `mask` is set and the window of 5x5 around the pixel is explained by
 /// one factor between 0.4 and 0.95 on the background and the colour agrees; to 0 elsewhere.
-void findShadows(const Picture& picture, const BackgroundView& background,
+void findShadows(const ColourPlanes& picture, const ColourPlanes& background,
                  ImageView<const uint8_t> mask, const Executor& executor,
                  ImageView<uint8_t> shadow);
 

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Which darkened parts of the foreground are cast shadows, judged by what lies around them: clothes
+// that happen to look like a darkened background lie inside an object, shadows lie beside it.
+//
+// Determinism: integers; sums over components (core/components.hpp).
+#pragma once
+
+#include "core/components.hpp"
+#include "core/executor.hpp"
+#include "core/image.hpp"
+#include "core/mask_cleaning.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace rg {
+
+/// What is known of one darkened part.
+struct DarkPart {
+  uint32_t columns = 0;          ///< Vertical runs of its pixels.
+  uint32_t enclosedColumns = 0;  ///< Of these, with solid foreground above and below.
+  uint32_t solidContacts = 0;    ///< Pixel sides shared with solid foreground.
+  uint32_t freeContacts = 0;     ///< Pixel sides shared with background.
+};
+
+struct CastShadowScratch {
+  Components darkParts, objects;
+  std::vector<DarkPart> dark;
+  std::vector<uint32_t> darkOf;  ///< Darkened pixels of each object.
+  std::vector<uint8_t> isChosen;
+  CleaningScratch cleaning;
+};
+
+/// Clears in `dark` (0 or 255, a subset of `mask`) what is no cast shadow.
+void keepCastShadows(ImageView<const uint8_t> mask, ImageView<uint8_t> dark,
+                     CastShadowScratch& scratch);
+
+}  // namespace rg

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Gaps in the foreground that the picture does not know: where an object has the colour of the
+// model behind it, the mask has a border and the picture has no edge.
+//
+// Determinism: integers; sums over components (core/components.hpp).
+#pragma once
+
+#include "core/components.hpp"
+#include "core/image.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace rg {
+
+struct GapContour {
+  int64_t steps = 0;  ///< Sum of the picture's differences across the border.
+  int64_t pixels = 0;
+  int frameSides = 0;  ///< Bits: left, top, right, bottom.
+};
+
+struct GapScratch {
+  Image<uint8_t> across,
+      thick;  ///< The mask grown by a few pixels, so that cracks don't open a gap.
+  Components parts;
+  std::vector<GapContour> contours;
+  std::vector<uint8_t> isChosen;
+};
+
+/// Sets unset parts of at most `mostPx` pixels that touch at most one side of the frame and whose
+/// border to the mask has a mean step of at most `mostStep` grey levels in `picture`.
+void fillUnedged(ImageView<const uint8_t> picture, int mostStep, uint32_t mostPx,
+                 GapScratch& scratch, ImageView<uint8_t> mask);
+
+}  // namespace rg
