@@ -25,6 +25,10 @@ void Absorption::run(const AbsorptionLimits& limits) {
     do chooseAllBelow(area);
     while (mergeRound() > 0);
   }
+  if (limits.minAreaPx > 1) {
+    do chooseThin();
+    while (mergeRound() > 0);
+  }
   while (regions_.size() > limits.maxRegions) {
     chooseSmallest(static_cast<uint32_t>(regions_.size()) - limits.maxRegions);
     if (mergeRound() == 0) break;
@@ -39,6 +43,18 @@ uint32_t Absorption::representative(uint32_t i) {
 void Absorption::chooseAllBelow(uint32_t areaPx) {
   chooses_.resize(regions_.size());
   for (size_t i = 0; i < regions_.size(); ++i) chooses_[i] = regions_[i].areaPx < areaPx;
+}
+
+// A ribbon of width w has about 2 / w pixels of border a pixel: thin is below a width of 1.5 px.
+void Absorption::chooseThin() {
+  perimeters_.assign(regions_.size(), 0);
+  for (const AbsorbedBorder& border : borders_) {
+    perimeters_[border.a] += border.borderPx;
+    perimeters_[border.b] += border.borderPx;
+  }
+  chooses_.resize(regions_.size());
+  for (size_t i = 0; i < regions_.size(); ++i)
+    chooses_[i] = uint64_t{4} * regions_[i].areaPx < uint64_t{3} * perimeters_[i];
 }
 
 // Of regions with a neighbour only: the others can't merge and would use up the count.

@@ -4,6 +4,7 @@
 // In each round every region below a limit chooses the neighbour of least key (colour distance of
 // the means, id); chosen pairs merge all at once, then means and borders are computed anew. The
 // limit grows from round to round, so that small ones find a home before they tear others along.
+// Then thin regions do the same: the ramp of a blurred edge is a ribbon of its own colour along it.
 // Determinism: choices depend on the state before the round only; sums commute.
 #pragma once
 
@@ -38,7 +39,7 @@ class Absorption {
   std::vector<AbsorbedRegion>& regions() { return regions_; }
   std::vector<AbsorbedBorder>& borders() { return borders_; }
 
-  /// Merges until no region with a neighbour is below the least area and, as far as there are
+  /// Merges until no region with a neighbour is below the least area or thin and, as far as there are
   /// neighbours, no more than the largest number is left: that number exactly if there were more.
   void run(const AbsorptionLimits& limits);
 
@@ -54,6 +55,7 @@ class Absorption {
 
   [[nodiscard]] uint64_t mergeRound();
   void chooseAllBelow(uint32_t areaPx);
+  void chooseThin();
   void chooseSmallest(uint32_t count);
   void findMeans();
   void findBest();
@@ -64,6 +66,7 @@ class Absorption {
   std::vector<AbsorbedRegion> regions_;
   std::vector<AbsorbedBorder> borders_, sorted_;
   std::vector<uint32_t> forest_;   ///< Initial region → one nearer to its representative.
+  std::vector<uint32_t> perimeters_;
   std::vector<uint8_t> chooses_;   ///< Regions that look for a neighbour in this round.
   std::vector<uint64_t> best_;     ///< Least key of each of those.
   std::vector<uint32_t> parents_;  ///< Where each region goes in this round; then new numbers.

@@ -25,8 +25,13 @@ constexpr uint32_t leastArea(const SegmentationParams& params, Size size) {
 
 /// Components above a 32nd of the frame are cut into tiles of about a 64th, of whole 8x8 cells.
 RunLimits runLimits(Size size) {
-  const auto side = static_cast<int>(integerSqrt(static_cast<uint64_t>(size.area() / 64)));
-  return {static_cast<uint32_t>(size.area() / 32), std::max(side / 8 * 8, 16)};
+  constexpr int kTilesInFrame = 64, kTilesInRegion = 2, kCell = 8, kLeastTile = 32;
+  const auto side = static_cast<int>(integerSqrt(static_cast<uint64_t>(size.area()))) /
+                    static_cast<int>(integerSqrt(kTilesInFrame));
+  const int tile = std::max(side / kCell * kCell, kLeastTile);
+  const int64_t largest =
+      kTilesInRegion * std::max<int64_t>(size.area() / kTilesInFrame, int64_t{tile} * tile);
+  return {static_cast<uint32_t>(largest), tile};
 }
 
 Result<std::shared_ptr<const Labels>> skipped(Pool<Labels>& pool, Scope scope, Size size) {

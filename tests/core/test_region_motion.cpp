@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "core/pixel.hpp"
+#include "core/region_motion.hpp"
+#include "tests/core/scenes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <tuple>
+
+namespace rg {
+namespace {
+
+using namespace scenes;
+
+std::shared_ptr<const Graph> graphOf(std::shared_ptr<const Labels> labels) {
+  auto graph = makeGraphStage(contextWith(1))->process(std::move(labels), {});
+  EXPECT_TRUE(graph);
+  return *graph;
+}
+
+using LabelAt = std::function<int(int, int)>;
+
+std::shared_ptr<const Motion> match(std::shared_ptr<const Picture> previous,
+                                    std::shared_ptr<const Picture> current, uint32_t count,
+                                    const LabelAt& labelAt, const MotionParams& params,
+                                    int threads = 1) {
+  const auto stage = makeMotionStage(contextWith(threads));
+  EXPECT_TRUE(stage->process(graphOf(label(previous, 1, [](int, int) { return 1; })), params));
+  auto motion = stage->process(graphOf(label(current, count, labelAt)), params);
+  EXPECT_TRUE(motion);
+  EXPECT_EQ((*motion)->status, Status::Ok);
+  return *motion;
+}
+
+int everywhere(int, int) {
+  return 1;
+}
+
+/// The same noise seen through a window that moved by (−dx, −dy): its contents move by (dx, dy).
+std::shared_ptr<const Picture> movedNoise(Size size, int dx, int dy) {
+  return paintGrey(size, [=](int x, int y) {
+    return static_cast<int>(
+        mixHash(static_cast<uint32_t>(x - dx + 1000), static_cast<uint32_t>(y - dy + 1000), 5) %
+        256);
+  });
+}
+
+TEST(RegionMotion, FindsEveryTranslation) {
+  const Size size{72, 64};
+  const MotionParams params{7, false};
+  const auto previous = movedNoise(size, 0, 0);
+  for (const Point d : {Point{0, 0}, Point{7, -7}, Point{-6, 3}, Point{1, 0}, Point{-7, 7}}) {
+    const auto motion = match(
+        previous, movedNoise(size, d.x, d.y), 1,
+        [](int x, int y) { return x >= 8 && x < 64 && y >= 8 && y < 56 ? 1 : 0; }, params);
+    EXPECT_EQ(motion->regions[0].dx, d.x * kMotionUnit);
+    EXPECT_EQ(motion->regions[0].dy, d.y * kMotionUnit);
+    EXPECT_EQ(motion->regions[0].sad, 0u);
+  }
+}
+
+/// Which pixels are matched, by the words of core/inner_pixels.hpp.
+std::vector<std::vector<Point>> matchedPixels(const Labels& labels) {
+  std::vector<std::vector<Point>> all(labels.count + 1), inner(labels.count + 1);
+  for (int y = 0; y < labels.size.height; ++y)
+    for (int x = 0; x < labels.size.width; ++x) {
+      const int id = labels.ids.at(x, y);
+      bool isInner = true;
+      for (int step = 1; step <= 3; ++step)
+        for (const Point q :
+             {Point{x - step, y}, Point{x + step, y}, Point{x, y - step}, Point{x, y + step}})
+          if (boundsOf(labels.size).contains(q) && labels.ids.at(q.x, q.y) != id) isInner = false;
+      all[static_cast<size_t>(id)].push_back({x, y});
+      if (isInner) inner[static_cast<size_t>(id)].push_back({x, y});
+    }
+  for (size_t id = 0; id < all.size(); ++id)
+    if (inner[id].size() >= 16 && inner[id].size() >= all[id].size() / 4) all[id] = inner[id];
+  return all;
+}
+
+RegionMotion search(const Picture& previous, const Picture& current,
+                    const std::vector<Point>& pixels, int reach) {
+  const auto before = previous.luma();
+  std::tuple<uint64_t, int, int, int> best{UINT64_MAX, 0, 0, 0};
+  for (int dy = -reach; dy <= reach; ++dy)
+    for (int dx = -reach; dx <= reach; ++dx) {
+      uint64_t sad = 0;
+      for (const Point p : pixels)
+        sad += static_cast<uint64_t>(std::abs(
+            current.luma().at(p.x, p.y) - before.at(std::clamp(p.x - dx, 0, before.width() - 1),
+                                                    std::clamp(p.y - dy, 0, before.height() - 1))));
+      best = std::min(best, {sad, dx * dx + dy * dy, dy, dx});
+    }
+  return {std::get<3>(best) * kMotionUnit, std::get<2>(best) * kMotionUnit, std::get<0>(best), 0};
+}
+
+void expectExhaustive(Size size, uint32_t count, const LabelAt& labelAt, int reach) {
+  const auto previous = greyNoise(size, 21), current = greyNoise(size, 22);
+  const auto labels = label(current, count, labelAt);
+  const auto pixels = matchedPixels(*labels);
+  for (const int threads : {1, 2}) {
+    const auto motion = match(previous, current, count, labelAt, {reach, false}, threads);
+    ASSERT_EQ(motion->regions.size(), count);
+    for (uint32_t id = 1; id <= count; ++id) {
+      if (pixels[id].empty()) continue;
+      const RegionMotion expected = search(*previous, *current, pixels[id], reach);
+      EXPECT_EQ(motion->regions[id - 1].dx, expected.dx) << "region " << id;
+      EXPECT_EQ(motion->regions[id - 1].dy, expected.dy) << "region " << id;
+      EXPECT_EQ(motion->regions[id - 1].sad, expected.sad) << "region " << id;
+    }
+  }
+}
+
+TEST(RegionMotion, EqualsASearchOfAllShiftsOverWholeCells) {
+  expectExhaustive({45, 38}, 1, everywhere, 5);
+  expectExhaustive(
+      {64, 32}, 2, [](int x, int) { return 1 + (x >= 32); }, 4);
+}
+
+TEST(RegionMotion, EqualsASearchOfAllShiftsOverSlantedRegions) {
+  expectExhaustive(
+      {61, 43}, 5, [](int x, int y) { return (x + 2 * y) / 12 % 6; }, 4);
+}
+
+TEST(RegionMotion, EqualsASearchOfAllShiftsOverScatteredPixels) {
+  expectExhaustive(
+      {43, 35}, 90,
+      [](int x, int y) {
+        return static_cast<int>(mixHash(static_cast<uint32_t>(x), static_cast<uint32_t>(y), 1) %
+                                91);
+      },
+      3);
+}
+
+TEST(RegionMotion, EqualsASearchOfAllShiftsOnTinyFrames) {
+  expectExhaustive({1, 1}, 1, everywhere, 2);
+  expectExhaustive(
+      {1, 23}, 2, [](int, int y) { return 1 + y / 12; }, 3);
+  expectExhaustive(
+      {19, 1}, 3, [](int x, int) { return 1 + x / 7; }, 64);
+}
+
+// More cells than one batch of sums holds.
+TEST(RegionMotion, SumsOfALargeRegionAreCarriedFromBatchToBatch) {
+  const Size size{560, 460};
+  const LabelAt halves = [](int x, int y) {
+    return x < 70 || x >= 490 || y < 70 || y >= 400 ? 0 : x < 90 ? 1 : 2;
+  };
+  for (const int threads : {1, 2}) {
+    const auto motion =
+        match(movedNoise(size, 0, 0), movedNoise(size, -61, 47), 2, halves, {64, true}, threads);
+    for (const RegionMotion& region : motion->regions) {
+      EXPECT_EQ(region.dx, -61 * kMotionUnit);
+      EXPECT_EQ(region.dy, 47 * kMotionUnit);
+      EXPECT_EQ(region.sad, 0u);
+      EXPECT_GT(region.reliability, kFullReliability / 2);
+    }
+  }
+}
+
+double wave(double x, double y) {
+  return 128 + 40 * std::sin(x * 0.31 + 1) * std::cos(y * 0.27) +
+         35 * std::sin(x * 0.17 - y * 0.23);
+}
+
+std::shared_ptr<const Picture> waves(Size size, double dx, double dy) {
+  return paintGrey(size, [=](int x, int y) { return std::lround(wave(x - dx, y - dy)); });
+}
+
+TEST(RegionMotion, FindsFractionsOfAPixel) {
+  const Size size{80, 72};
+  const auto previous = waves(size, 0, 0);
+  for (const double dx : {-3.25, 0.5, 2.75})
+    for (const double dy : {-0.25, 1.0, 4.5}) {
+      const auto motion = match(
+          previous, waves(size, dx, dy), 1,
+          [](int x, int y) { return x >= 10 && x < 70 && y >= 10 && y < 62 ? 1 : 0; }, {8, true});
+      EXPECT_NEAR(motion->regions[0].dx, dx * kMotionUnit, 1.0);
+      EXPECT_NEAR(motion->regions[0].dy, dy * kMotionUnit, 1.0);
+    }
+}
+
+TEST(RegionMotion, AFlatRegionSaysNothing) {
+  const auto flat = paintGrey({48, 40}, [](int, int) { return 90; });
+  const auto motion = match(flat, flat, 1, everywhere, {});
+  EXPECT_EQ(motion->regions[0].dx, 0);
+  EXPECT_EQ(motion->regions[0].dy, 0);
+  EXPECT_EQ(motion->regions[0].reliability, 0);
+}
+
+TEST(RegionMotion, AStraightEdgeIsNotReliableATextureIs) {
+  const Size size{64, 64};
+  const auto stripes = [&](int dx) {
+    return paintGrey(size, [=](int x, int) { return (x - dx + 64) / 8 % 2 == 0 ? 60 : 200; });
+  };
+  EXPECT_LE(match(stripes(0), stripes(2), 1, everywhere, {6, true})->regions[0].reliability, 8);
+  const LabelAt inside = [](int x, int y) { return x > 5 && x < 58 && y > 5 && y < 58 ? 1 : 0; };
+  EXPECT_GE(match(movedNoise(size, 0, 0), movedNoise(size, 2, 1), 1, inside, {6, true})
+                ->regions[0]
+                .reliability,
+            200);
+}
+
+TEST(RegionMotion, ARepeatedPatternIsAmbiguous) {
+  const auto dots = [](int dx) {
+    return paintGrey({64, 64},
+                     [=](int x, int y) { return (x - dx + 64) % 5 < 2 && y % 5 < 2 ? 220 : 40; });
+  };
+  EXPECT_LE(match(dots(0), dots(1), 1, everywhere, {8, true})->regions[0].reliability, 16);
+}
+
+TEST(RegionMotion, AVectorOnTheBorderOfTheSearchIsNotReliable) {
+  const Size size{64, 64};
+  const LabelAt inside = [](int x, int y) { return x > 9 && x < 54 && y > 9 && y < 54 ? 1 : 0; };
+  const auto motion = match(movedNoise(size, 0, 0), movedNoise(size, 5, 0), 1, inside, {5, true});
+  EXPECT_EQ(motion->regions[0].dx, 5 * kMotionUnit);
+  EXPECT_EQ(motion->regions[0].reliability, 0);
+}
+
+TEST(RegionMotion, WithoutAPreviousFrameAllVectorsAreZero) {
+  const auto graph =
+      graphOf(label(greyNoise({20, 20}, 1), 2, [](int x, int) { return 1 + x / 10; }));
+  const auto stage = makeMotionStage(contextWith(1));
+  for (const Reset reset : {Reset::Stream, Reset::Flush, Reset::Gap}) {
+    const auto first = stage->process(graph, {});
+    ASSERT_TRUE(first);
+    EXPECT_EQ((*first)->status, Status::Skipped);
+    ASSERT_EQ((*first)->regions.size(), 2u);
+    EXPECT_EQ((*first)->regions[1].reliability, 0);
+    EXPECT_EQ((*stage->process(graph, {}))->status, Status::Ok);
+    stage->reset(reset);
+  }
+}
+
+TEST(RegionMotion, ASkippedFrameKeepsThePreviousOne) {
+  const auto graph = graphOf(label(greyNoise({20, 20}, 1), 1, everywhere));
+  const auto stage = makeMotionStage(contextWith(1));
+  ASSERT_TRUE(stage->process(graph, {}));
+  const auto skipped = stage->process(std::make_shared<Graph>(), {});
+  ASSERT_TRUE(skipped);
+  EXPECT_EQ((*skipped)->status, Status::Skipped);
+  EXPECT_TRUE((*skipped)->regions.empty());
+  EXPECT_EQ((*stage->process(graph, {}))->status, Status::Ok);
+}
+
+}  // namespace
+}  // namespace rg
