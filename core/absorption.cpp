@@ -11,6 +11,9 @@ constexpr uint64_t kNoChoice = ~uint64_t{0};
 constexpr uint32_t kUnseen = ~uint32_t{0};
 constexpr uint32_t kLimitGrowth = 4;
 constexpr int kMeanFractionBits = 4;
+/// Colours that differ by less than 4 grey levels: there the border's length decides.
+constexpr uint64_t kAlike = 4 << kMeanFractionBits;
+constexpr uint64_t kDistanceUnit = 16;
 
 }  // namespace
 
@@ -92,12 +95,13 @@ void Absorption::findMeans() {
   }
 }
 
-/// Below 3 · (255 · 16)² < 2^26.
+// The same seen from both sides. Below (3 · (255 · 16)² + 64²) · 16 < 2^30.
 uint64_t Absorption::distance(const AbsorbedBorder& border) const {
   const Mean& a = means_[border.a];
   const Mean& b = means_[border.b];
   const int64_t red = a.red - b.red, green = a.green - b.green, blue = a.blue - b.blue;
-  return static_cast<uint64_t>(red * red + green * green + blue * blue);
+  const auto squares = static_cast<uint64_t>(red * red + green * green + blue * blue);
+  return (squares + kAlike * kAlike) * kDistanceUnit / border.borderPx;
 }
 
 void Absorption::findBest() {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Merging of small regions into the neighbour most like them (part of stage 2).
 //
-// In each round every region below a limit chooses the neighbour of least key (colour distance of
-// the means, id); chosen pairs merge all at once, then means and borders are computed anew. The
-// limit grows from round to round, so that small ones find a home before they tear others along.
-// Then thin regions do the same: the ramp of a blurred edge is a ribbon of its own colour along it.
-// Determinism: choices depend on the state before the round only; sums commute.
+// In each round every region below a limit chooses the neighbour of least key (squared colour
+// distance of the means by length of the common border, id); chosen pairs merge all at once, then
+// means and borders are computed anew. The limit grows from round to round, so that small ones find
+// a home before they tear others along. Then thin regions do the same: the ramp of a blurred edge
+// is a ribbon of its own colour along it. Determinism: choices depend on the state before the round
+// only; sums commute.
 #pragma once
 
 #include <cstdint>
@@ -39,8 +40,9 @@ class Absorption {
   std::vector<AbsorbedRegion>& regions() { return regions_; }
   std::vector<AbsorbedBorder>& borders() { return borders_; }
 
-  /// Merges until no region with a neighbour is below the least area or thin and, as far as there are
-  /// neighbours, no more than the largest number is left: that number exactly if there were more.
+  /// Merges until no region with a neighbour is below the least area or thin and, as far as there
+  /// are neighbours, no more than the largest number is left: that number exactly if there were
+  /// more.
   void run(const AbsorptionLimits& limits);
 
   /// After run(): the initial region that stands for the region of initial region i.
@@ -65,7 +67,7 @@ class Absorption {
 
   std::vector<AbsorbedRegion> regions_;
   std::vector<AbsorbedBorder> borders_, sorted_;
-  std::vector<uint32_t> forest_;   ///< Initial region → one nearer to its representative.
+  std::vector<uint32_t> forest_;  ///< Initial region → one nearer to its representative.
   std::vector<uint32_t> perimeters_;
   std::vector<uint8_t> chooses_;   ///< Regions that look for a neighbour in this round.
   std::vector<uint64_t> best_;     ///< Least key of each of those.
