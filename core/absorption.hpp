@@ -5,8 +5,8 @@
 // distance of the means by length of the common border, id); chosen pairs merge all at once, then
 // means and borders are computed anew. The limit grows from round to round, so that small ones find
 // a home before they tear others along. Then thin regions do the same: the ramp of a blurred edge
-// is a ribbon of its own colour along it. Determinism: choices depend on the state before the round
-// only; sums commute.
+// is a ribbon of its own colour along it.
+// Determinism: choices depend on the state before the round only; sums commute.
 #pragma once
 
 #include <cstdint>

@@ -72,7 +72,8 @@ int64_t curvatureReliability(const Surface<Sum>& surface, Point v, int64_t pixel
   return saturating(least, kCurvaturePerPixel * pixels);
 }
 
-/// Low where another shift matches as well.
+/// Low where another shift matches nearly as well: the lead over the second best is seen against
+/// what the second best leaves unexplained, and against a shift at random.
 template <class Sum>
 int64_t peakReliability(const Surface<Sum>& surface, Point v, int64_t pixels) {
   int64_t second = INT64_MAX;
@@ -80,8 +81,12 @@ int64_t peakReliability(const Surface<Sum>& surface, Point v, int64_t pixels) {
     for (int dy = -surface.reach(); dy <= surface.reach(); ++dy)
       if (std::max(absDiff(dx, v.x), absDiff(dy, v.y)) > 1)
         second = std::min(second, surface.at({dx, dy}));
-  if (second == INT64_MAX) return 0;
-  return kFullReliability * (second - surface.at(v)) / (second + pixels);
+  if (second == INT64_MAX) return kFullReliability;
+  int64_t mean = 0;
+  for (const Sum sum : surface.sums()) mean += static_cast<int64_t>(sum);
+  mean /= static_cast<int64_t>(surface.sums().size());
+  const int64_t lead = kFullReliability * (second - surface.at(v));
+  return integerSqrt(static_cast<uint64_t>(lead / (second + pixels) * (lead / (mean + pixels))));
 }
 
 }  // namespace

@@ -207,7 +207,10 @@ TEST(RegionMotion, ARepeatedPatternIsAmbiguous) {
     return paintGrey({64, 64},
                      [=](int x, int y) { return (x - dx + 64) % 5 < 2 && y % 5 < 2 ? 220 : 40; });
   };
-  EXPECT_LE(match(dots(0), dots(1), 1, everywhere, {8, true})->regions[0].reliability, 16);
+  const LabelAt inside = [](int x, int y) { return x > 9 && x < 54 && y > 9 && y < 54 ? 1 : 0; };
+  const auto motion = match(dots(0), dots(1), 1, inside, {8, true});
+  EXPECT_EQ(motion->regions[0].dx, kMotionUnit);
+  EXPECT_EQ(motion->regions[0].reliability, 0);
 }
 
 TEST(RegionMotion, AVectorOnTheBorderOfTheSearchIsNotReliable) {
