@@ -1,0 +1,143 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Runs the elements on data with ground truth, has a referee score them and prints a table.
+
+usage: run.py DATA SCORE.PY [--gate] [--method paper] [--build FOLDER] [--jobs N] [SET...]
+
+DATA     folder of the sets; a SET is named by its path below it (default: all that have a truth)
+SCORE.PY the referee: "score.py masks SET DIR", "tracks SET FILE", "flow SET FILE LABELS" print a
+         dict of figures, and its source(SET) names a GStreamer source of the frames in order
+--gate   only the sets that GATES names; exits 1 when a figure misses its gate
+--method of bgremove (default: the element's own)
+"""
+import argparse
+import ast
+import concurrent.futures
+import fnmatch
+import importlib.util
+import operator
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+TIMEOUT_S = 900
+AT_LEAST, AT_MOST = operator.ge, operator.le
+GATES = {  # Set: figures that must be reached with default properties.
+    'pets09_s2l1': [('MOTA', AT_LEAST, 0.48), ('IDF1', AT_LEAST, 0.42)],
+    'cdnet_highway': [('F', AT_LEAST, 0.80)],
+    'cdnet_office': [('F', AT_LEAST, 0.75)],
+    'wallflower/WavingTrees': [('TE8', AT_MOST, 1200)],
+    'middlebury_flow/*': [('EPE_reliable_half', AT_MOST, 0.6), ('regions', AT_LEAST, 60),
+                          ('covered', AT_LEAST, 0.95)],
+}
+SHOWN = {'masks': ('F', 'precision', 'recall', 'TE', 'TE8'),
+         'tracks': ('MOTA', 'IDF1', 'HOTA', 'FP', 'FN', 'IDSW'),
+         'flow': ('EPE', 'EPE_reliable_half', 'EPE_pixels', 'regions', 'covered')}
+
+
+class Runner:
+    def __init__(self, options):
+        self.data = options.data.resolve()
+        self.referee = options.score.resolve()
+        self.build = options.build.resolve()
+        self.method = f'method={options.method}' if options.method else ''
+        spec = importlib.util.spec_from_file_location('referee', self.referee)
+        self.module = importlib.util.module_from_spec(spec)
+        spec.loader.exec_module(self.module)
+
+    def sets(self):
+        """Name and kind of each set that has a truth."""
+        for folder in self.module.all_sets(str(self.data)):
+            path = pathlib.Path(folder)
+            kind = ('tracks' if (path / 'gt.txt').exists() else
+                    'flow' if (path / 'flow10.flo').exists() else
+                    'masks' if self.module.truth(folder) else None)
+            if kind:
+                yield path.relative_to(self.data).as_posix(), kind
+
+    def launch(self, line):
+        command = ['meson', 'devenv', '-C', str(self.build), 'gst-launch-1.0', '-q', *line.split()]
+        done = subprocess.run(command, capture_output=True, text=True, timeout=TIMEOUT_S)
+        if done.returncode:
+            raise RuntimeError(f'{line}\n{done.stdout}{done.stderr}')
+
+    def score(self, kind, name, *files):
+        command = [sys.executable, str(self.referee), kind, str(self.data / name), *files]
+        done = subprocess.run(command, capture_output=True, text=True, timeout=TIMEOUT_S)
+        if done.returncode:
+            raise RuntimeError(f'{name}: {done.stdout}{done.stderr}')
+        return ast.literal_eval(done.stdout.strip().splitlines()[-1])
+
+    def masks(self, name, folder):
+        self.launch(f'{self.module.source(str(self.data / name))} ! videoconvert ! '
+                    f'bgremove {self.method} ! regionmask source=foreground ! '
+                    f'pngenc compression-level=1 ! multifilesink location={folder}/%06d.png')
+        return self.score('masks', name, folder)
+
+    def tracks(self, name, folder):
+        self.launch(f'{self.module.source(str(self.data / name))} ! videoconvert ! '
+                    f'bgremove {self.method} ! hsvsegment ! srg ! prmmotion ! mrfmerge ! '
+                    f'regionwrite format=mot location={folder}/tracks.txt ! fakesink sync=false')
+        return self.score('tracks', name, f'{folder}/tracks.txt')
+
+    def flow(self, name, folder):
+        """Frame 11 first: the truth leads from 10 to 11, the elements look back in time."""
+        for index, number in enumerate((11, 10)):
+            link = pathlib.Path(folder, f'in{index}.png')
+            link.symlink_to(self.data / name / f'frame{number}.png')
+        self.launch(f'multifilesrc location={folder}/in%d.png caps=image/png,framerate=25/1 ! '
+                    'pngdec ! videoconvert ! hsvsegment ! srg ! prmmotion ! mrfmerge ! '
+                    f'regionwrite format=regions location={folder}/regions.csv ! '
+                    'regionmask source=labels ! video/x-raw,format=GRAY16_BE ! '
+                    f'pngenc ! multifilesink location={folder}/labels%d.png')
+        return self.score('flow', name, f'{folder}/regions.csv', f'{folder}/labels1.png')
+
+    def run(self, name, kind):
+        with tempfile.TemporaryDirectory() as folder:
+            return getattr(self, kind)(name, folder)
+
+
+def gates_of(name):
+    return [gate for pattern, gates in GATES.items() if fnmatch.fnmatch(name, pattern)
+            for gate in gates]
+
+
+def row(name, kind, figures):
+    shown = ', '.join(f'{key} {figures[key]}' for key in SHOWN[kind] if key in figures)
+    missed = [f'{key} {"≥" if compare is AT_LEAST else "≤"} {limit}'
+              for key, compare, limit in gates_of(name) if not compare(figures[key], limit)]
+    verdict = f'missed: {", ".join(missed)}' if missed else 'reached' if gates_of(name) else ''
+    return f'| {name} | {shown} | {verdict} |', bool(missed)
+
+
+def parse():
+    parser = argparse.ArgumentParser(usage=__doc__)
+    parser.add_argument('data', type=pathlib.Path)
+    parser.add_argument('score', type=pathlib.Path)
+    parser.add_argument('sets', nargs='*')
+    parser.add_argument('--gate', action='store_true')
+    parser.add_argument('--method')
+    parser.add_argument('--build', type=pathlib.Path, default=ROOT / 'build')
+    parser.add_argument('--jobs', type=int, default=2)
+    return parser.parse_args()
+
+
+def main():
+    options = parse()
+    runner = Runner(options)
+    chosen = [(name, kind) for name, kind in runner.sets()
+              if (not options.gate or gates_of(name))
+              and (not options.sets or name in options.sets)]
+    if not chosen:
+        sys.exit('run.py: none of these sets is there')
+    with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
+        futures = [pool.submit(runner.run, name, kind) for name, kind in chosen]
+        rows = [row(*task, future.result()) for task, future in zip(chosen, futures)]
+    print('\n'.join(['| set | figures | gate |', '|---|---|---|'] + [text for text, _ in rows]))
+    sys.exit(1 if options.gate and any(missed for _, missed in rows) else 0)
+
+
+if __name__ == '__main__':
+    main()
