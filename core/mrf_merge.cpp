@@ -16,6 +16,9 @@ constexpr int kMutualRounds =
 constexpr int kMaxRounds = 64;
 constexpr int kMaxSweeps = 12;
 constexpr int kMaxRestarts = 4;
+// A thing inside another has a border of four to five times the root of its area: what clearly
+// moves otherwise has to outweigh that.
+constexpr int kMostExcess = 6;
 
 /// The total order that makes contraction independent of any other: heavier first. The hash keeps
 /// equal weights (a checkerboard) from queueing up along ids, which would cost a round per node.
@@ -195,14 +198,15 @@ void weighArcs(const Motion& motion, std::span<const uint32_t> predicted,
     const uint32_t s = arc.a - 1u, t = arc.b - 1u;
     const RegionMotion &v = motion.regions[s], &u = motion.regions[t];
     const int64_t dx = v.dx - u.dx, dy = v.dy - u.dy;
-    const int64_t excess = std::clamp(dx * dx + dy * dy - threshold2, int64_t{0}, threshold2);
+    const int64_t excess =
+        std::clamp(dx * dx + dy * dy - threshold2, int64_t{0}, kMostExcess * threshold2);
     const int64_t rootArea =
         integerSqrt(std::min(graph.regions[s].areaPx, graph.regions[t].areaPx));
     const int64_t pull = std::min(v.reliability, u.reliability) * rootArea;
     const bool isPredicted =
         !predicted.empty() && predicted[s] != 0 && predicted[s] == predicted[t];
     const int64_t weight = int64_t{weights.border} * arc.borderPx + weights.arc +
-                           (isPredicted ? weights.prediction : 0) -
+                           (isPredicted ? weights.prediction * rootArea : 0) -
                            weights.motion * (pull * excess / threshold2) / kFullReliability;
     arcs.push_back({s, t, weight});
   }

@@ -4,8 +4,8 @@
 //
 // Up to a constant, U is minus the sum of the weights of the arcs that are kept, where an arc
 // between regions s and t with border L weighs
-//   w = border L + arc + prediction [same object predicted] − motion r min(√As, √At) excess,
-//   excess = clamp(|vs − vt|² − T², 0, T²) / T²,  r = the lesser reliability of the two.
+//   w = border L + arc + min(√As, √At) (prediction [same object predicted] − motion r excess),
+//   excess = clamp(|vs − vt|² − T², 0, 6 T²) / T²,  r = the lesser reliability of the two.
 // Regions that show no reliable motion are thus joined by geometry alone.
 //
 // Determinism: integers; every choice has a key (weight, then a hash of the two labels, then the
@@ -26,8 +26,8 @@ struct MergeWeights {
   int32_t motion = 256;
   int32_t border = 256;
   int32_t arc = 256;
-  int32_t prediction = 2048;
-  int32_t motionThreshold = 2 * kMotionUnit;  ///< T, in 1/16 px per frame, at least 1.
+  int32_t prediction = 512;
+  int32_t motionThreshold = kMotionUnit;  ///< T, in 1/16 px per frame, at least 1.
 };
 
 /// An arc between nodes a < b that count from 0.

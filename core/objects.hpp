@@ -73,7 +73,7 @@ struct ObjectParams {
   double motionWeight = 1.0;       ///< Of U1: what keeping regions together costs that move apart.
   double borderWeight = 1.0;       ///< Of U2: what a pixel of border between two groups costs.
   double arcWeight = 1.0;          ///< Of U3: what a broken arc costs.
-  double motionThresholdPx = 2.0;  ///< Speeds that differ by less per frame count as alike.
+  double motionThresholdPx = 1.0;  ///< Speeds that differ by less per frame count as alike.
   double maxLostTimeS = 2.0;       ///< An object that is not seen for longer ends.
   double minObjectArea = 0.0;      ///< Share of the frame, in percent; 0 = learnt from the scene.
 };

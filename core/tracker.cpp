@@ -12,7 +12,7 @@ namespace {
 
 constexpr int64_t kSecondUs = 1'000'000;
 constexpr int kUnit = kPositionUnit;
-constexpr uint32_t kTrustedSamples = 4;
+constexpr uint32_t kTrustedSamples = 8;
 
 int32_t toInt(int64_t value) {
   return static_cast<int32_t>(std::clamp<int64_t>(value, INT32_MIN / 4, INT32_MAX / 4));
@@ -86,8 +86,10 @@ void Tracker::update(const Evidence& evidence, std::span<const Group> groups, in
     fitSizeToScene(track);
   }
   lookForTracks(evidence);
+  findBlobs(evidence);
+  giveBlobs(evidence);
   giveGroups(evidence, groups);
-  sight(evidence, groups);
+  sight(evidence);
   for (size_t i = 0; i < tracks_.size(); ++i) correct(i, stepNs);
   findNewcomers(evidence, params);
   rejoin();
@@ -137,55 +139,7 @@ void Tracker::lookForTracks(const Evidence& e) {
   for (size_t t = 0; t < tasks_.size(); ++t) sightings_[taskTrack_[t]].task = static_cast<int>(t);
 }
 
-/// What sticks out of a fitted box (an arm, a long stride) goes with its group, when most of the
-/// group belongs to one track.
-void Tracker::giveGroups(const Evidence& e, std::span<const Group> groups) {
-  struct Claim {
-    uint32_t cells = 0;
-    uint16_t track = 0;
-  };
-  static thread_local std::vector<Claim> claims;
-  static thread_local std::vector<uint32_t> counts;
-  claims.assign(groups.size(), {});
-  counts.assign(groups.size(), 0);
-  for (size_t t = 0; t < tasks_.size(); ++t) {
-    const auto mine = static_cast<uint16_t>(taskTrack_[t] + 1);
-    const Box box = intersect(tasks_[t].fitted, boundsOf(e.grid));
-    const auto forMine = [&](auto&& visit) {
-      for (int y = box.y; y < box.bottom(); ++y)
-        for (int x = box.x; x < box.right(); ++x)
-          if (owner_[e.at(x, y)] == mine) visit(e.group[e.at(x, y)] - 1u);
-    };
-    forMine([&](uint32_t group) { ++counts[group]; });
-    forMine([&](uint32_t group) {
-      if (counts[group] > claims[group].cells) claims[group] = {counts[group], mine};
-      counts[group] = 0;
-    });
-  }
-  for (size_t t = 0; t < tasks_.size(); ++t) {
-    const auto mine = static_cast<uint16_t>(taskTrack_[t] + 1);
-    const Box& fitted = tasks_[t].fitted;
-    const int side = std::max(1, fitted.width / 3), above = std::max(1, fitted.height / 6);
-    const Box near = intersect(
-        {fitted.x - side, fitted.y - above, fitted.width + 2 * side, fitted.height + 2 * above},
-        boundsOf(e.grid));
-    for (int y = near.y; y < near.bottom(); ++y)
-      for (int x = near.x; x < near.right(); ++x) {
-        const size_t cell = e.at(x, y);
-        if (e.group[cell] == 0 || owner_[cell] != 0) continue;
-        const uint32_t group = e.group[cell] - 1u;
-        if (claims[group].track == mine && 2 * claims[group].cells >= e.cellsOf[group])
-          owner_[cell] = mine;
-      }
-  }
-  for (size_t g = 0; g < groups.size(); ++g) {
-    if (claims[g].track == 0 || 5 * claims[g].cells < 3 * e.cellsOf[g]) continue;
-    Sighting& s = sightings_[claims[g].track - 1u];
-    s.box = unite(s.box, groups[g].box);
-  }
-}
-
-void Tracker::sight(const Evidence& e, std::span<const Group>) {
+void Tracker::sight(const Evidence& e) {
   for (size_t i = 0; i < tracks_.size(); ++i) {
     Sighting& s = sightings_[i];
     if (s.task < 0) continue;
@@ -205,14 +159,17 @@ void Tracker::sight(const Evidence& e, std::span<const Group>) {
       }
     const Track& track = tracks_[i];
     const int64_t height = s.box.height * int64_t{kUnit}, width = s.box.width * int64_t{kUnit};
-    const bool isFree = track.sizeSamples < kTrustedSamples && !scale_.isUniform();
-    const bool isHigh =
-        isFree ? 2 * height >= track.size.height && height <= 2 * track.size.height
-               : 4 * height >= 3 * track.size.height && 4 * height <= 5 * track.size.height;
-    const bool isWide = isFree ? 2 * width >= track.size.width && width <= 2 * track.size.width
-                               : 2 * width >= track.size.width && 2 * width <= 3 * track.size.width;
-    s.isWhole = isHigh && isWide && 5 * s.othersCells < s.boxCells;
+    const bool isUsual =
+        !isSizeKnown(track) ||
+        (4 * height >= 3 * track.size.height && 4 * height <= 5 * track.size.height &&
+         2 * width >= track.size.width && 2 * width <= 3 * track.size.width);
+    s.isWhole = !s.box.isEmpty() && isUsual && 5 * s.othersCells < s.boxCells;
   }
+}
+
+/// Until then a track is what its blob is: it grows with it, and nothing else begins beside it.
+bool Tracker::isSizeKnown(const Track& track) const {
+  return scale_.isUniform() || track.sizeSamples >= kTrustedSamples;
 }
 
 /// Moves a track to where it was seen.
@@ -227,7 +184,10 @@ void Tracker::correct(size_t index, int64_t stepNs) {
   }
   const FitTask& task = tasks_[static_cast<size_t>(s.task)];
   int64_t x = track.x, foot = track.foot;
-  if (s.isWhole) {
+  if (s.isWhole && !isSizeKnown(track)) {
+    x = (2 * int64_t{s.box.x} + s.box.width) * kUnit / 2;
+    foot = int64_t{s.box.bottom()} * kUnit;
+  } else if (s.isWhole) {
     const int64_t left = int64_t{s.box.x} * kUnit, right = int64_t{s.box.right()} * kUnit;
     const int64_t top = int64_t{s.box.y} * kUnit, bottom = int64_t{s.box.bottom()} * kUnit;
     x = (left + right) / 2;

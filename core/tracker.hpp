@@ -77,6 +77,24 @@ struct Newcomer {
   Look appearance;
 };
 
+/// Who has more than half of what is counted (Boyer and Moore), found without a table of all pairs.
+/// Both passes must count the same things; their order doesn't change who has a majority.
+struct Majority {
+  uint32_t value = 0;
+  uint32_t lead = 0;
+  uint32_t votes = 0;  ///< For `value`, after the second pass.
+  uint32_t total = 0;
+
+  void propose(uint32_t candidate) {
+    if (lead == 0) value = candidate;
+    lead = candidate == value ? lead + 1 : lead - 1;
+  }
+  void count(uint32_t candidate) {
+    votes += candidate == value;
+    ++total;
+  }
+};
+
 class Tracker {
  public:
   /// Ends all tracks; the next update's events tell. Also forgets the scene's scale if isNewScene.
@@ -97,7 +115,10 @@ class Tracker {
   void advance(Track& track, int64_t stepNs) const;
   void lookForTracks(const Evidence& evidence);
   void giveGroups(const Evidence& evidence, std::span<const Group> groups);
-  void sight(const Evidence& evidence, std::span<const Group> groups);
+  void findBlobs(const Evidence& evidence);
+  void giveBlobs(const Evidence& evidence);
+  void sight(const Evidence& evidence);
+  [[nodiscard]] bool isSizeKnown(const Track& track) const;
   void findNewcomers(const Evidence& evidence, const TrackerParams& params);
   void describeNewcomers(const Evidence& evidence);
   void dropSmall(const Evidence& evidence, const TrackerParams& params);
@@ -133,7 +154,12 @@ class Tracker {
   std::vector<Newcomer> newcomers_;
   std::vector<int> newcomerOf_;  ///< Of each piece, −1 = none.
   std::vector<uint16_t> noOwner_;
-  std::vector<uint32_t> blobOf_, blobCells_;
+  std::vector<Majority> majorities_;
+  std::vector<Piece> blobs_;  ///< Connected parts of all the foreground.
+  PieceScratch blobScratch_;
+  std::vector<uint32_t> blobCells_;
+  std::vector<uint32_t> blobOf_;     ///< Of each track: 1 + blob, 0 = none.
+  std::vector<uint16_t> soleTrack_;  ///< Of each blob (from 1): 1 + the only track in it, or 0.
   std::vector<int> trackOfNewcomer_;
   std::vector<uint32_t> touching_;
   std::vector<uint16_t> trackIndex_;

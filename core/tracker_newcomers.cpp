@@ -123,7 +123,7 @@ void Tracker::dropSmall(const Evidence& e, const TrackerParams& params) {
     const Extent expected = scale_.at(n.box.bottom());
     const int64_t usual = int64_t{expected.width} * expected.height / (kUnit * kUnit);
     const int64_t height = n.box.height * int64_t{kUnit}, width = n.box.width * int64_t{kUnit};
-    if (n.isAtBorder) return 8 * areaPx < usual || 3 * height < expected.height;
+    if (n.isAtBorder && n.parent == 0) return 8 * areaPx < usual || 3 * height < expected.height;
     if (n.parent != 0)
       return 3 * areaPx < usual || 5 * height < 3 * expected.height || 2 * width < expected.width;
     return 5 * areaPx < usual || 2 * height < expected.height || 5 * width < 2 * expected.width;
@@ -211,7 +211,14 @@ void Tracker::begin(const Newcomer& newcomer) {
     const Extent expected = scale_.at(newcomer.box.bottom());
     const bool isUsual =
         2 * track.size.width <= 3 * expected.width && 5 * track.size.height <= 7 * expected.height;
-    if (isUsual) track.size = expected;
+    // What comes in shows a part: the rest is beyond the border that it touches.
+    if (isUsual) {
+      const Box& box = newcomer.box;
+      track.size = expected;
+      if (box.x <= 0) track.x = box.right() * kUnit - expected.width / 2;
+      if (box.right() >= frame_.width) track.x = box.x * kUnit + expected.width / 2;
+      if (box.bottom() >= frame_.height) track.foot = box.y * kUnit + expected.height;
+    }
   }
   if (newcomer.parent != 0) track.parents.push_back(newcomer.parent);
   track.stillX = track.learntX = track.x;

@@ -32,7 +32,14 @@ void Tracker::learnSize(size_t index, const Evidence& e) {
   const Box frame = boundsOf(e.frame);
   const bool isCut = s.box.x <= frame.x || s.box.y <= frame.y || s.box.right() >= frame.right() ||
                      s.box.bottom() >= frame.bottom();
-  if (isCut) return;
+  const bool isOther = 5 * s.box.width * kUnit < 4 * track.size.width ||
+                       4 * s.box.width * kUnit > 5 * track.size.width ||
+                       5 * s.box.height * kUnit < 4 * track.size.height ||
+                       4 * s.box.height * kUnit > 5 * track.size.height;
+  if (isCut || (isOther && !isSizeKnown(track))) {
+    if (!isSizeKnown(track)) track.size = {s.box.width * kUnit, s.box.height * kUnit};
+    return;
+  }
   const int64_t known = std::min<int64_t>(track.sizeSamples, scale_.isUniform() ? 12 : 4);
   const int64_t weight = scale_.isUniform() ? std::max<int64_t>(known, 4) : known;
   track.size.width = mix(track.size.width, int64_t{s.box.width} * kUnit, weight);
@@ -48,32 +55,12 @@ void Tracker::learnSize(size_t index, const Evidence& e) {
 /// tracks say of sizes: a wrong scale must not confirm itself. Blobs of several things side by side
 /// don't count; tracks above each other may be one thing that was taken apart.
 void Tracker::learnScale(const Evidence& e) {
-  noOwner_.assign(e.group.size(), 0);
-  findPieces(e, noOwner_, pieceScratch_, pieces_);
-  blobOf_.assign(sightings_.size(), 0);
-  blobCells_.assign(pieces_.size() + 1, 0);
-  for (size_t i = 0; i < sightings_.size(); ++i) {
-    if (!tracks_[i].isSeen || sightings_[i].task < 0) continue;
-    const Box& fitted = tasks_[static_cast<size_t>(sightings_[i].task)].fitted;
-    const Box box = intersect(fitted, boundsOf(e.grid));
-    for (const bool isCounting : {true, false})
-      for (int y = box.y; y < box.bottom(); ++y)
-        for (int x = box.x; x < box.right(); ++x) {
-          const uint32_t blob = pieceScratch_.label[e.at(x, y)];
-          if (blob == 0 || owner_[e.at(x, y)] != i + 1) continue;
-          if (isCounting)
-            ++blobCells_[blob];
-          else if (blobCells_[blob] > blobCells_[blobOf_[i]])
-            blobOf_[i] = blob;
-        }
-    std::fill(blobCells_.begin(), blobCells_.end(), 0);
-  }
   for (size_t i = 0; i < sightings_.size(); ++i) {
     Track& track = tracks_[i];
     const int64_t dx = track.x - track.learntX, dy = track.foot - track.learntFoot;
     const int64_t half = track.size.height / 2;
     if (!track.isConfirmed || blobOf_[i] == 0 || dx * dx + dy * dy < half * half) continue;
-    Box box = pieces_[blobOf_[i] - 1].box;
+    const Box box = blobs_[blobOf_[i] - 1].box;
     if (box.x <= 0 || box.y <= 0 || box.right() >= e.grid.width || box.bottom() >= e.grid.height)
       continue;
     bool isAlone = true, isOneThing = true;

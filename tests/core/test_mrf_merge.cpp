@@ -58,17 +58,17 @@ TEST(MrfMerge, RegionsWithoutReliableMotionAreJoinedByGeometry) {
 }
 
 TEST(MrfMerge, SpeedsBelowTheThresholdAreAlike) {
-  const RegionMotion slow{2 * kMotionUnit, 0, 0, kFullReliability};
+  const RegionMotion slow{kMotionUnit, 0, 0, kFullReliability};
   EXPECT_THAT(Row({kStill, slow}, 0).groups(), ElementsAre(0, 0));
 }
 
 TEST(MrfMerge, ALongBorderOutweighsMotion) {
   EXPECT_THAT(Row({kStill, kFast}, 4).groups(), ElementsAre(0, 1));
-  EXPECT_THAT(Row({kStill, kFast}, 40).groups(), ElementsAre(0, 0));
+  EXPECT_THAT(Row({kStill, kFast}, 80).groups(), ElementsAre(0, 0));
 }
 
 TEST(MrfMerge, PredictionHoldsTogetherWhatWasOneObject) {
-  const Row row({kStill, kFast}, 2);
+  const Row row({kStill, {10 * kMotionUnit, 0, 0, 80}}, 2);
   EXPECT_THAT(row.groups(), ElementsAre(0, 1));
   EXPECT_THAT(row.groups({7, 7}), ElementsAre(0, 0));
   EXPECT_THAT(row.groups({7, 8}), ElementsAre(0, 1));

@@ -1,0 +1,332 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "core/objects.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+namespace rg {
+namespace {
+
+using testing::IsEmpty;
+
+constexpr int64_t kStepNs = 40'000'000;
+
+struct Body {
+  Box box;
+  Colour colour;
+};
+
+/// Frames of rectangles on an empty background, as the stages before hand them on: each colour that
+/// is seen is a region, later bodies cover earlier ones.
+class Scene {
+ public:
+  explicit Scene(Size size = {320, 240}, Scope scope = Scope::Foreground)
+      : size_(size), scope_(scope) {}
+
+  std::shared_ptr<const Objects> show(const std::vector<Body>& bodies,
+                                      const std::vector<RegionMotion>& motions = {}) {
+    auto picture = std::make_shared<Picture>();
+    auto labels = std::make_shared<Labels>();
+    labels->size = size_;
+    labels->status = Status::Ok;
+    labels->scope = scope_;
+    labels->ids.resize(size_);
+    labels->ids.fill(0);
+    std::vector<uint8_t> pixels(static_cast<size_t>(size_.area()) * 3, 90);
+    for (size_t i = 0; i < bodies.size(); ++i)
+      paint(bodies[i], static_cast<uint16_t>(i + 1), labels->ids, pixels);
+    const PlaneMemory plane{pixels.data(), pixels.size(), size_.width * 3};
+    picture->load(*Frame::make({PixelFormat::Rgb, size_}, std::span(&plane, 1)), Executor(1));
+    labels->picture = picture;
+    // Labels count without gaps: a body that can't be seen has none.
+    std::vector<uint16_t> labelOf(bodies.size() + 1, 0);
+    for (int y = 0; y < size_.height; ++y)
+      for (int x = 0; x < size_.width; ++x) labelOf[labels->ids.at(x, y)] = 1;
+    labelOf[0] = 0;
+    std::vector<RegionMotion> seen;
+    for (size_t i = 1; i < labelOf.size(); ++i) {
+      if (labelOf[i] == 0) continue;
+      labelOf[i] = static_cast<uint16_t>(++labels->count);
+      seen.push_back(i <= motions.size() ? motions[i - 1] : RegionMotion{});
+    }
+    for (int y = 0; y < size_.height; ++y)
+      for (int x = 0; x < size_.width; ++x) labels->ids.at(x, y) = labelOf[labels->ids.at(x, y)];
+    const Context context{std::make_shared<const Executor>(1), nullptr};
+    auto motion = std::make_shared<Motion>();
+    motion->size = size_;
+    motion->status = Status::Ok;
+    motion->graph = *makeGraphStage(context)->process(labels, {});
+    motion->regions = seen;
+    return process(motion);
+  }
+  std::shared_ptr<const Objects> skip() {
+    auto motion = std::make_shared<Motion>();
+    motion->size = size_;
+    return process(motion);
+  }
+  ObjectStage& stage() { return *stage_; }
+  void wait(int64_t ns) { time_.ns += ns; }
+  void forgetTime() { time_.isKnown = false; }
+
+ private:
+  static void paint(const Body& body, uint16_t label, Image<uint16_t>& ids,
+                    std::vector<uint8_t>& pixels) {
+    const Box box = intersect(body.box, boundsOf(ids.size()));
+    for (int y = box.y; y < box.bottom(); ++y)
+      for (int x = box.x; x < box.right(); ++x) {
+        ids.at(x, y) = label;
+        uint8_t* pixel = pixels.data() + 3 * (y * ids.width() + x);
+        pixel[0] = body.colour.red;
+        pixel[1] = body.colour.green;
+        pixel[2] = body.colour.blue;
+      }
+  }
+  std::shared_ptr<const Objects> process(std::shared_ptr<const Motion> motion) {
+    auto result = stage_->process(std::move(motion), {}, time_);
+    EXPECT_TRUE(result);
+    time_.ns += kStepNs;
+    return *result;
+  }
+  Size size_;
+  Scope scope_;
+  FrameTime time_{0, true};
+  std::unique_ptr<ObjectStage> stage_ =
+      makeObjectStage({std::make_shared<const Executor>(1), nullptr});
+};
+
+constexpr Colour kRed{200, 30, 30}, kBlue{30, 40, 200}, kGreen{30, 180, 40};
+
+bool isTold(const Object& object) {
+  return object.state == ObjectState::Tracked || object.state == ObjectState::Stopped;
+}
+
+std::vector<const Object*> toldOf(const Objects& objects) {
+  std::vector<const Object*> told;
+  for (const Object& object : objects.objects)
+    if (isTold(object)) told.push_back(&object);
+  return told;
+}
+
+int countEvents(const Objects& objects, EventKind kind) {
+  return static_cast<int>(std::count_if(objects.events.begin(), objects.events.end(),
+                                        [&](const Event& event) { return event.kind == kind; }));
+}
+
+double overlap(const Box& a, const Box& b) {
+  const auto common = static_cast<double>(intersect(a, b).area());
+  return common / (static_cast<double>(a.area() + b.area()) - common);
+}
+
+TEST(Objects, AMovingBodyIsOneObjectWithItsBoxAndSpeed) {
+  Scene scene;
+  std::shared_ptr<const Objects> objects;
+  int begun = 0;
+  for (int i = 0; i < 40; ++i) {
+    objects = scene.show({{{40 + 4 * i, 100, 24, 60}, kRed}});
+    begun += countEvents(*objects, EventKind::ObjectNew);
+  }
+  const auto told = toldOf(*objects);
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_EQ(begun, 1);
+  EXPECT_EQ(told[0]->id, 1u);
+  EXPECT_GE(overlap(told[0]->box, {196, 100, 24, 60}), 0.9);
+  EXPECT_EQ(told[0]->areaPx, 24u * 60);
+  EXPECT_EQ(told[0]->colour, kRed);
+  EXPECT_TRUE(told[0]->hasSpeed);
+  EXPECT_NEAR(told[0]->speedX, 100 * kPositionUnit, 5 * kPositionUnit);  // 4 px in 40 ms
+  EXPECT_NEAR(told[0]->speedY, 0, 2 * kPositionUnit);
+  EXPECT_EQ(objects->slots.at(200, 120), 1);
+  EXPECT_EQ(objects->slots.at(20, 120), 0);
+  EXPECT_EQ(objects->regionObject, std::vector<uint64_t>{1});
+  EXPECT_THAT(told[0]->contour, testing::ElementsAre(Point{196, 100}, Point{219, 100},
+                                                     Point{219, 159}, Point{196, 159}));
+}
+
+TEST(Objects, SlowEntryFromTheBorderMakesOneObject) {
+  Scene scene;
+  std::set<uint64_t> ids;
+  std::shared_ptr<const Objects> objects;
+  for (int i = 0; i < 60; ++i) {
+    objects = scene.show({{{2 * i - 30, 80, 30, 70}, kRed}});
+    for (const Object& object : objects->objects) ids.insert(object.id);
+  }
+  EXPECT_EQ(ids.size(), 1u);
+  ASSERT_EQ(toldOf(*objects).size(), 1u);
+  EXPECT_GE(overlap(toldOf(*objects)[0]->box, {88, 80, 30, 70}), 0.9);
+}
+
+TEST(Objects, ABodyOfSeveralColoursIsOneObject) {
+  Scene scene;
+  std::shared_ptr<const Objects> objects;
+  for (int i = 0; i < 30; ++i)
+    objects = scene.show({{{40 + 3 * i, 80, 24, 30}, kRed}, {{40 + 3 * i, 110, 24, 30}, kBlue}});
+  ASSERT_EQ(toldOf(*objects).size(), 1u);
+  EXPECT_GE(overlap(toldOf(*objects)[0]->box, {127, 80, 24, 60}), 0.9);
+  EXPECT_EQ(objects->regionObject, (std::vector<uint64_t>{1, 1}));
+}
+
+TEST(Objects, WhatNeverMovesIsNotTold) {
+  Scene scene;
+  for (int i = 0; i < 100; ++i)
+    EXPECT_THAT(toldOf(*scene.show({{{100, 80, 24, 60}, kRed}})), IsEmpty());
+}
+
+TEST(Objects, AFlickerIsNotTold) {
+  Scene scene;
+  for (int i = 0; i < 60; ++i) {
+    const auto objects =
+        i % 20 == 3 ? scene.show({{{40 + 3 * i, 80, 24, 60}, kRed}}) : scene.show({});
+    EXPECT_THAT(toldOf(*objects), IsEmpty());
+    EXPECT_THAT(objects->events, IsEmpty());
+  }
+}
+
+TEST(Objects, AStoppedObjectKeepsItsNumber) {
+  Scene scene;
+  std::shared_ptr<const Objects> objects;
+  for (int i = 0; i < 30; ++i) objects = scene.show({{{40 + 3 * i, 80, 24, 60}, kRed}});
+  for (int i = 0; i < 250; ++i) objects = scene.show({{{127, 80, 24, 60}, kRed}});
+  ASSERT_EQ(toldOf(*objects).size(), 1u);
+  EXPECT_EQ(objects->objects[0].state, ObjectState::Stopped);
+  EXPECT_EQ(objects->objects[0].id, 1u);
+  for (int i = 0; i < 20; ++i) objects = scene.show({{{127 + 3 * i, 80, 24, 60}, kRed}});
+  EXPECT_EQ(objects->objects[0].state, ObjectState::Tracked);
+  EXPECT_EQ(objects->objects[0].id, 1u);
+}
+
+/// Shows bodies that cross; tells the ids by which each is seen at the start and at the end.
+std::map<int, std::set<uint64_t>> cross(Scene& scene, int frames, int gapFrom, int gapTo) {
+  std::map<int, std::set<uint64_t>> ids;
+  for (int i = 0; i < frames; ++i) {
+    const std::vector<Body> bodies{{{30 + 3 * i, 80, 24, 60}, kRed},
+                                   {{260 - 3 * i, 84, 24, 60}, kBlue}};
+    const auto objects = scene.show(bodies);
+    if (i < 15 || (i > gapFrom && i < gapTo)) continue;
+    for (const Object* object : toldOf(*objects))
+      for (int which = 0; which < 2; ++which)
+        if (overlap(object->box, bodies[static_cast<size_t>(which)].box) > 0.5)
+          ids[which].insert(object->id);
+  }
+  return ids;
+}
+
+TEST(Objects, CrossingBodiesKeepTheirNumbers) {
+  Scene scene;
+  auto ids = cross(scene, 75, 28, 52);
+  EXPECT_EQ(ids[0].size(), 1u);
+  EXPECT_EQ(ids[1].size(), 1u);
+  EXPECT_NE(ids[0], ids[1]);
+}
+
+TEST(Objects, AHiddenObjectComesBackWithItsNumber) {
+  Scene scene;
+  std::shared_ptr<const Objects> objects;
+  for (int i = 0; i < 60; ++i) {
+    const bool isHidden = i >= 25 && i < 45;
+    objects = isHidden ? scene.show({}) : scene.show({{{40 + 3 * i, 80, 24, 60}, kGreen}});
+    if (i == 30) {
+      ASSERT_EQ(objects->objects.size(), 1u);
+      EXPECT_EQ(objects->objects[0].state, ObjectState::Occluded);
+      EXPECT_NEAR(objects->objects[0].box.x, 130, 4);
+    }
+  }
+  ASSERT_EQ(toldOf(*objects).size(), 1u);
+  EXPECT_EQ(toldOf(*objects)[0]->id, 1u);
+}
+
+TEST(Objects, WhatIsGoneForLongEndsAndItsNumberIsNotUsedAgain) {
+  Scene scene;
+  for (int i = 0; i < 30; ++i) (void)scene.show({{{40 + 3 * i, 80, 24, 60}, kGreen}});
+  int ended = 0;
+  for (int i = 0; i < 60; ++i) ended += countEvents(*scene.show({}), EventKind::ObjectEnd);
+  EXPECT_EQ(ended, 1);
+  std::shared_ptr<const Objects> objects;
+  for (int i = 0; i < 30; ++i) objects = scene.show({{{40 + 3 * i, 80, 24, 60}, kGreen}});
+  ASSERT_EQ(toldOf(*objects).size(), 1u);
+  EXPECT_GT(toldOf(*objects)[0]->id, 1u);
+}
+
+TEST(Objects, ASkippedFramePredictsAndTellsNothing) {
+  Scene scene;
+  for (int i = 0; i < 30; ++i) (void)scene.show({{{40 + 3 * i, 80, 24, 60}, kRed}});
+  const auto skipped = scene.skip();
+  EXPECT_EQ(skipped->status, Status::Skipped);
+  EXPECT_THAT(skipped->objects, IsEmpty());
+  const auto objects = scene.show({{{40 + 3 * 31, 80, 24, 60}, kRed}});
+  ASSERT_EQ(toldOf(*objects).size(), 1u);
+  EXPECT_EQ(toldOf(*objects)[0]->id, 1u);
+  EXPECT_GE(overlap(toldOf(*objects)[0]->box, {133, 80, 24, 60}), 0.85);
+}
+
+TEST(Objects, AFlushEndsTracksAndTheNextFrameTells) {
+  Scene scene;
+  for (int i = 0; i < 30; ++i) (void)scene.show({{{40 + 3 * i, 80, 24, 60}, kRed}});
+  scene.stage().reset(Reset::Flush);
+  const auto objects = scene.show({});
+  EXPECT_EQ(countEvents(*objects, EventKind::ObjectEnd), 1);
+  EXPECT_THAT(objects->objects, IsEmpty());
+}
+
+TEST(Objects, AGapIsBridgedByPrediction) {
+  Scene scene;
+  for (int i = 0; i < 30; ++i) (void)scene.show({{{40 + 3 * i, 80, 24, 60}, kRed}});
+  scene.stage().reset(Reset::Gap);
+  scene.wait(9 * kStepNs);
+  const auto objects = scene.show({{{40 + 3 * 39, 80, 24, 60}, kRed}});
+  ASSERT_EQ(toldOf(*objects).size(), 1u);
+  EXPECT_EQ(toldOf(*objects)[0]->id, 1u);
+}
+
+TEST(Objects, WithoutTimeThereIsNoSpeed) {
+  Scene scene;
+  scene.forgetTime();
+  std::shared_ptr<const Objects> objects;
+  for (int i = 0; i < 30; ++i) objects = scene.show({{{40 + 3 * i, 80, 24, 60}, kRed}});
+  ASSERT_EQ(toldOf(*objects).size(), 1u);
+  EXPECT_FALSE(toldOf(*objects)[0]->hasSpeed);
+  EXPECT_EQ(toldOf(*objects)[0]->speedX, 0);
+}
+
+TEST(Objects, AMovingCameraIsTheBackgroundsMotion) {
+  Scene scene({320, 240}, Scope::Frame);
+  const RegionMotion pan{-3 * kMotionUnit, kMotionUnit, 0, kFullReliability};
+  const RegionMotion walk{4 * kMotionUnit, 0, 0, kFullReliability};
+  std::shared_ptr<const Objects> objects;
+  for (int i = 0; i < 30; ++i)
+    objects =
+        scene.show({{{0, 0, 320, 240}, kGreen}, {{60 + 4 * i, 90, 24, 60}, kRed}}, {pan, walk});
+  EXPECT_EQ(objects->cameraDx, -3 * kMotionUnit);
+  EXPECT_EQ(objects->cameraDy, kMotionUnit);
+  ASSERT_EQ(toldOf(*objects).size(), 1u);
+  EXPECT_GE(overlap(toldOf(*objects)[0]->box, {176, 90, 24, 60}), 0.9);
+}
+
+TEST(Objects, TinyFramesAreFine) {
+  for (const Size size : {Size{1, 1}, Size{1, 9}, Size{9, 1}}) {
+    Scene scene(size);
+    for (int i = 0; i < 10; ++i) (void)scene.show({{{i % 3, i % 2, 3, 3}, kRed}});
+    EXPECT_EQ(scene.show({})->size, size);
+  }
+}
+
+TEST(Objects, TwoRunsAgree) {
+  Scene one, two;
+  for (int i = 0; i < 75; ++i) {
+    const std::vector<Body> bodies{{{30 + 3 * i, 80, 24, 60}, kRed},
+                                   {{260 - 3 * i, 84, 24, 60}, kBlue}};
+    const auto a = one.show(bodies), b = two.show(bodies);
+    ASSERT_EQ(a->objects.size(), b->objects.size());
+    for (size_t k = 0; k < a->objects.size(); ++k) {
+      EXPECT_EQ(a->objects[k].id, b->objects[k].id);
+      EXPECT_EQ(a->objects[k].box, b->objects[k].box);
+      EXPECT_EQ(a->objects[k].speedX, b->objects[k].speedX);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace rg
