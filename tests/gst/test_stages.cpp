@@ -5,9 +5,11 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cstring>
 #include <optional>
 #include <string>
+#include <thread>
 #include <utility>
 
 namespace rg {
@@ -235,6 +237,39 @@ TEST_P(EveryStage, PropertiesKeepTheirRangesAndValues) {
   }
   g_free(specs);
   gst_object_unref(element);
+}
+
+TEST_P(EveryStage, TakesNewPropertyValuesWhilePlaying) {
+  const Caps caps;
+  Chain chain(line(), caps);
+  GstElement* element = chain.element(kNames[GetParam()]);
+  std::atomic<bool> isDone = false;
+  std::thread changer([&] {
+    guint count = 0;
+    GParamSpec** specs = g_object_class_list_properties(G_OBJECT_GET_CLASS(element), &count);
+    while (!isDone)
+      for (guint i = 0; i < count; ++i) {
+        if (!(specs[i]->flags & GST_PARAM_MUTABLE_PLAYING)) continue;
+        GValue value = G_VALUE_INIT;
+        g_value_init(&value, specs[i]->value_type);
+        if (G_IS_PARAM_SPEC_INT(specs[i])) g_value_set_int(&value, 1 << 28);
+        if (G_IS_PARAM_SPEC_DOUBLE(specs[i])) g_value_set_double(&value, 1e30);
+        if (G_IS_PARAM_SPEC_ENUM(specs[i])) g_value_set_enum(&value, 1);
+        g_param_value_validate(specs[i], &value);
+        g_object_set_property(G_OBJECT(element), specs[i]->name, &value);
+        g_param_value_set_default(specs[i], &value);
+        g_object_set_property(G_OBJECT(element), specs[i]->name, &value);
+        g_object_get_property(G_OBJECT(element), specs[i]->name, &value);
+        g_value_unset(&value);
+      }
+    g_free(specs);
+  });
+  for (int i = 0; i < 60; ++i)
+    EXPECT_TRUE(status(chain.pass(paint(caps, i, square(i % 40, 8, 12)))).has_value());
+  isDone = true;
+  changer.join();
+  gst_object_unref(element);
+  EXPECT_EQ(chain.complaint(GST_MESSAGE_ERROR), "");
 }
 
 INSTANTIATE_TEST_SUITE_P(Stages, EveryStage, ::testing::Range(0, 5),
