@@ -11,7 +11,9 @@
 namespace rg {
 namespace {
 
-constexpr int kFewPixels = 20;
+constexpr int kFewPixels = 24;
+constexpr int kMostSide = 2 * kMostReach + 1;
+constexpr int kBlock = 16;  // Shifts matched at a time; columns are readable so far beyond.
 
 using Cell = std::array<uint8_t, kCellPixels>;
 
@@ -58,20 +60,32 @@ void addMasked(const MaskedCell& cell, const uint8_t* strip, int count, uint32_t
   }
 }
 
-void addPixel(uint8_t pixel, const uint8_t* column, int count, uint32_t* sums) {
-  for (int k = 0; k < count; ++k) sums[k] += static_cast<uint32_t>(absDiff(pixel, column[k]));
+/// Whole blocks, so that the loop over them has no remainder.
+void addPixel(uint8_t pixel, const uint8_t* column, int blocks, uint16_t* sums) {
+  for (; blocks > 0; --blocks, column += kBlock, sums += kBlock)
+    for (int k = 0; k < kBlock; ++k) {
+      const uint8_t before = column[k];
+      const auto d = static_cast<uint8_t>(pixel > before ? pixel - before : before - pixel);
+      sums[k] = static_cast<uint16_t>(sums[k] + d);
+    }
 }
 
+/// Sums of up to kFewPixels fit 16 bits.
 void addFew(const CellPart& part, const MaskedCell& cell, const PaddedLuma& previous,
             uint32_t* sums) {
   const int reach = previous.reach(), side = 2 * reach + 1;
-  for (int i = 0; i < kCellPixels; ++i) {
-    if (cell.mask[static_cast<size_t>(i)] == 0) continue;
-    const int x = part.cellX * kCellSize + i % kCellSize;
-    const int y = part.cellY * kCellSize + i / kCellSize;
-    for (int ex = -reach; ex <= reach; ++ex)
-      addPixel(cell.pixels[static_cast<size_t>(i)], previous.down(x + ex, y - reach), side,
-               sums + (ex + reach) * side);
+  const int blocks = (side + kBlock - 1) / kBlock;
+  std::array<uint16_t, kMostSide + kBlock> columnSums;
+  for (int ex = -reach; ex <= reach; ++ex, sums += side) {
+    std::fill_n(columnSums.begin(), blocks * kBlock, uint16_t{0});
+    for (int i = 0; i < kCellPixels; ++i) {
+      if (cell.mask[static_cast<size_t>(i)] == 0) continue;
+      const int x = part.cellX * kCellSize + i % kCellSize;
+      const int y = part.cellY * kCellSize + i / kCellSize;
+      addPixel(cell.pixels[static_cast<size_t>(i)], previous.down(x + ex, y - reach), blocks,
+               columnSums.data());
+    }
+    for (int k = 0; k < side; ++k) sums[k] += columnSums[static_cast<size_t>(k)];
   }
 }
 
@@ -93,7 +107,8 @@ void PaddedLuma::build(ImageView<const uint8_t> luma, int reach, const Executor&
   const Size padded{roundUpToCell(luma.width()) + 2 * reach,
                     roundUpToCell(luma.height()) + 2 * reach};
   rows_.resize(padded);
-  columns_.resize({padded.height, padded.width});
+  columns_.resize({padded.height + kBlock, padded.width});
+  columns_.fill(0);
   executor.forRows(padded.height, [&](int first, int last) {
     for (int y = first; y < last; ++y)
       padRow(luma.row(std::clamp(y - reach, 0, luma.height() - 1)), luma.width(), reach,

@@ -18,6 +18,7 @@
 namespace rg {
 
 inline constexpr int kCellSize = 8;
+inline constexpr int kMostReach = 64;
 inline constexpr int kCellPixels = kCellSize * kCellSize;
 
 struct CellPart {

@@ -14,7 +14,6 @@
 namespace rg {
 namespace {
 
-constexpr int kMostShift = 64;
 constexpr uint32_t kPartsPerChunk = 32;
 /// Sums are kept for one batch of chunks only: whatever the number of regions, this many bytes.
 constexpr size_t kBatchBytes = size_t{4} << 20;
@@ -115,7 +114,7 @@ Result<std::shared_ptr<const Motion>> CpuMotion::process(std::shared_ptr<const G
 }
 
 void CpuMotion::match(const Graph& graph, const MotionParams& params, Motion& motion) {
-  reach_ = std::clamp(params.maxShiftPx, 1, kMostShift);
+  reach_ = std::clamp(params.maxShiftPx, 1, kMostReach);
   isSubpixel_ = params.isSubpixel;
   shifts_ = static_cast<size_t>(shiftCount(reach_));
   const Labels& labels = *graph.labels;
