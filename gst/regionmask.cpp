@@ -234,8 +234,17 @@ void initClass(gpointer klass, gpointer) {
   auto* element = GST_ELEMENT_CLASS(klass);
   gst_element_class_set_static_metadata(
       element, "Region mask", "Filter/Converter/Video",
-      "Turns foreground, objects or region numbers into grey video of the frame's size",
+      "Turns what the elements before it found into grey video of the frame's size: foreground or "
+      "objects as a black and white mask (GRAY8), or the number of each pixel's region (GRAY16_BE "
+      "or "
+      "GRAY16_LE). Time stamps and region metas are kept. Needs bgremove, hsvsegment or mrfmerge, "
+      "as "
+      "source says",
       "The gst-regiongraph developers");
+  gst_element_class_add_static_metadata(
+      element, "example",
+      "gst-launch-1.0 videotestsrc pattern=ball num-buffers=100 ! video/x-raw,format=I420 ! "
+      "bgremove ! regionmask source=foreground ! pngenc ! multifilesink location=mask-%03d.png");
   addTemplate(element, "sink", GST_PAD_SINK, kMetaCaps);
   addTemplate(element, "src", GST_PAD_SRC, kMaskCaps);
 

@@ -5,7 +5,7 @@
  *
  * Draws what the elements before it found: objects' boxes with their numbers and states, the ways
  * that they came and go, their outlines, and the region graph. Boxes are dashed while an object is
- * hidden. Lines and letters grow with the frame.
+ * hidden and only corners while it has stopped. Lines and letters grow with the frame.
  *
  * The drawing is attached as GstVideoOverlayComposition where downstream asks for that in its
  * allocation query (a sink that draws it itself); otherwise it is blended into the frames.
@@ -47,7 +47,8 @@ struct Settings : overlay::Views {
 
 constexpr std::array kProperties{
     property<Settings, &Settings::boxes>(
-        "boxes", "Draw a box around each object; dashed while the object is hidden"),
+        "boxes",
+        "Draw a box around each object: dashed while it is hidden, corners while it has stopped"),
     property<Settings, &Settings::ids>(
         "ids", "Write each object's number, and its state unless it is seen moving"),
     property<Settings, &Settings::trails>("trails", "Draw the way that each object came"),
@@ -109,12 +110,8 @@ class RegionOverlay final : public StageFilter {
     if (what != Reset::Gap) painter_.forget();
   }
 
-  void decideAllocation(GstQuery* query) override {
-    attaches_ =
-        gst_query_find_allocation_meta(query, GST_VIDEO_OVERLAY_COMPOSITION_META_API_TYPE, nullptr);
-  }
-
   GstFlowReturn process(const FilterFrame& frame) override {
+    if (frame.isDownstreamNew) attaches_ = downstreamDraws();
     const Settings settings = snapshot(settings_);
     const Results results(frame.buffer);
     if (wantsAnything(settings) && !results.suffice(settings))
@@ -131,6 +128,19 @@ class RegionOverlay final : public StageFilter {
   }
 
  private:
+  /// Asks by itself: the base class queries nothing for elements that work in place.
+  [[nodiscard]] bool downstreamDraws() const {
+    GstPad* pad = GST_BASE_TRANSFORM_SRC_PAD(element());
+    GstCaps* caps = gst_pad_get_current_caps(pad);
+    GstQuery* query = gst_query_new_allocation(caps, FALSE);
+    const bool draws =
+        gst_pad_peer_query(pad, query) &&
+        gst_query_find_allocation_meta(query, GST_VIDEO_OVERLAY_COMPOSITION_META_API_TYPE, nullptr);
+    gst_query_unref(query);
+    if (caps) gst_caps_unref(caps);
+    return draws;
+  }
+
   [[nodiscard]] static Size sizeOf(const FilterFrame& frame) {
     return {GST_VIDEO_INFO_WIDTH(&frame.info), GST_VIDEO_INFO_HEIGHT(&frame.info)};
   }
@@ -184,12 +194,15 @@ const FilterDescription kDescription{
     .longName = "Region and object overlay",
     .klass = "Filter/Editor/Video",
     .description =
-        "Draws objects' boxes, numbers, trails, outlines and vectors and the region graph; can "
-        "black out the background",
+        "Draws what the elements before it found: objects' boxes (dashed while hidden, corners "
+        "while stopped), numbers, trails, outlines, vectors, and the region graph; can black out "
+        "the background. Lines and letters grow with the frame. Attached as overlay composition "
+        "where downstream draws those, else blended into the frames. Needs mrfmerge; srg for the "
+        "graph alone, bgremove for the background alone",
     .example =
         "gst-launch-1.0 videotestsrc pattern=ball num-buffers=100 ! video/x-raw,format=I420 ! "
-        "regiontrack ! regionoverlay ! videoconvert ! jpegenc ! multifilesink "
-        "location=frame-%03d.jpg",
+        "bgremove ! hsvsegment ! srg ! prmmotion ! mrfmerge ! regionoverlay ! videoconvert ! "
+        "pngenc ! multifilesink location=objects-%03d.png",
     .caps = kPixelCaps,
     .properties = kProperties,
     .defaults = &kDefaults,

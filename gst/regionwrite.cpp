@@ -170,11 +170,15 @@ const FilterDescription kDescription{
     .longName = "Region and object writer",
     .klass = "Filter/Analyzer/Video",
     .description =
-        "Writes objects or regions of each frame to a file as JSON lines, MOTChallenge CSV or "
-        "region CSV, and passes the frames on untouched",
+        "Writes what the elements before it found to a file and passes the frames on untouched: "
+        "objects as JSON lines (schema: gst-regiongraph/regiongraph.schema.json in the data "
+        "folder) "
+        "or MOTChallenge CSV, or regions with their motion as CSV. Each frame's lines are written "
+        "at once; frames count from 1. Needs mrfmerge, for regions srg",
     .example =
-        "gst-launch-1.0 videotestsrc pattern=ball num-buffers=100 ! video/x-raw,format=I420 ! "
-        "regiontrack ! regionwrite location=objects.jsonl ! fakesink",
+        "gst-launch-1.0 -q videotestsrc pattern=ball num-buffers=100 ! "
+        "video/x-raw,format=I420 ! bgremove ! hsvsegment ! srg ! prmmotion ! mrfmerge ! "
+        "regionwrite ! fakesink",
     .caps = kMetaCaps,
     .properties = kProperties,
     .defaults = &kDefaults,

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdlib>
 
 namespace rg::overlay {
@@ -27,10 +28,6 @@ cv::Scalar ink(const Colour& colour, int alpha = kOpaque) {
 
 cv::Scalar rim() {
   return ink({0, 0, 0}, kRimAlpha);
-}
-
-int rimPx(int thickness) {
-  return thickness + 2 * std::max(1, thickness / 2);
 }
 
 bool isLight(const Colour& colour) {
@@ -62,59 +59,71 @@ Canvas::Canvas(ImageView<uint32_t> pixels, Point origin, const Style& style)
   pixels_.setTo(cv::Scalar::all(0));
 }
 
-void Canvas::line(Point from, Point to, const Colour& colour, int thickness) {
-  cv::line(pixels_, at(from), at(to), rim(), rimPx(thickness), cv::LINE_AA);
-  cv::line(pixels_, at(from), at(to), ink(colour), thickness, cv::LINE_AA);
+void Canvas::line(Point from, Point to, const Colour& colour) {
+  if (style_.rimPx > 0) cv::line(pixels_, at(from), at(to), rim(), rimmedPx(), cv::LINE_AA);
+  cv::line(pixels_, at(from), at(to), ink(colour), style_.linePx, cv::LINE_AA);
 }
 
-void Canvas::box(const Box& box, const Colour& colour, Stroke stroke) {
+void Canvas::box(const Box& whole, const Colour& colour, Stroke stroke) {
+  // Edges far outside cost nothing: they are drawn just outside.
+  constexpr int kOutsidePx = 256;
+  const Box visible{origin_.x, origin_.y, pixels_.cols, pixels_.rows};
+  const Box box = intersect(whole, inflate(visible, kOutsidePx));
+  if (box.isEmpty()) return;
   const std::array<Point, 4> corners{Point{box.x, box.y}, Point{box.right() - 1, box.y},
                                      Point{box.right() - 1, box.bottom() - 1},
                                      Point{box.x, box.bottom() - 1}};
   if (stroke == Stroke::Solid) {
     const cv::Rect rect(at(corners[0]), at({box.right(), box.bottom()}));
-    cv::rectangle(pixels_, rect, rim(), rimPx(style_.linePx));
+    if (style_.rimPx > 0) cv::rectangle(pixels_, rect, rim(), rimmedPx());
     cv::rectangle(pixels_, rect, ink(colour), style_.linePx);
     return;
   }
-  for (size_t i = 0; i < corners.size(); ++i)
-    dashes(corners[i], corners[(i + 1) % corners.size()], colour, style_.linePx);
+  for (size_t i = 0; i < corners.size(); ++i) {
+    const Point next = corners[(i + 1) % corners.size()];
+    if (stroke == Stroke::Dashed) {
+      dashes(corners[i], next, colour);
+    } else {
+      cornerMark(corners[i], next, colour);
+      cornerMark(next, corners[i], colour);
+    }
+  }
 }
 
-/// At most as many dashes as fit along the frame: the part outside the canvas is not worth a dash.
-void Canvas::dashes(Point from, Point to, const Colour& colour, int thickness) {
+void Canvas::cornerMark(Point corner, Point towards, const Colour& colour) {
+  const auto part = [](int from, int to) { return from + (to - from) / 4; };
+  line(corner, {part(corner.x, towards.x), part(corner.y, towards.y)}, colour);
+}
+
+void Canvas::dashes(Point from, Point to, const Colour& colour) {
   const int length = std::max(std::abs(to.x - from.x), std::abs(to.y - from.y));
-  const int dash = 2 * (style_.spacePx + thickness);
+  const int dash = 2 * (style_.spacePx + style_.linePx);
   const auto along = [&](int i) {
     return Point{from.x + static_cast<int>(int64_t{to.x - from.x} * i / std::max(length, 1)),
                  from.y + static_cast<int>(int64_t{to.y - from.y} * i / std::max(length, 1))};
   };
-  const cv::Rect visible(origin_.x - dash, origin_.y - dash, pixels_.cols + 2 * dash,
-                         pixels_.rows + 2 * dash);
-  for (int i = 0; i <= length; i += 2 * dash) {
-    const Point start = along(i);
-    const Point end = along(std::min(i + dash, length));
-    if (visible.contains({start.x, start.y})) line(start, end, colour, thickness);
-  }
+  for (int i = 0; i <= length; i += 2 * dash)
+    line(along(i), along(std::min(i + dash, length)), colour);
 }
 
 void Canvas::path(std::span<const Point> points, const Colour& colour, Ends ends) {
   points_.clear();
   for (const Point& point : points) points_.push_back(at(point));
   const bool isClosed = ends == Ends::Closed;
-  cv::polylines(pixels_, points_, isClosed, rim(), rimPx(style_.linePx), cv::LINE_AA);
+  if (style_.rimPx > 0) cv::polylines(pixels_, points_, isClosed, rim(), rimmedPx(), cv::LINE_AA);
   cv::polylines(pixels_, points_, isClosed, ink(colour), style_.linePx, cv::LINE_AA);
 }
 
 void Canvas::arrow(Point from, Point to, const Colour& colour) {
   const double length = std::hypot(to.x - from.x, to.y - from.y);
   const double tip = std::clamp(4.0 * style_.linePx / std::max(length, 1.0), 0.15, 0.5);
-  cv::arrowedLine(pixels_, at(from), at(to), rim(), rimPx(style_.linePx), cv::LINE_AA, 0, tip);
+  if (style_.rimPx > 0)
+    cv::arrowedLine(pixels_, at(from), at(to), rim(), rimmedPx(), cv::LINE_AA, 0, tip);
   cv::arrowedLine(pixels_, at(from), at(to), ink(colour), style_.linePx, cv::LINE_AA, 0, tip);
 }
 
 void Canvas::disc(Point centre, int radius, const Colour& colour) {
-  cv::circle(pixels_, at(centre), radius + std::max(1, style_.linePx / 2), rim(), cv::FILLED,
+  cv::circle(pixels_, at(centre), radius + std::max(1, style_.rimPx), rim(), cv::FILLED,
              cv::LINE_AA);
   cv::circle(pixels_, at(centre), radius, ink(colour), cv::FILLED, cv::LINE_AA);
 }

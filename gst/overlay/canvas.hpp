@@ -16,7 +16,7 @@
 
 namespace rg::overlay {
 
-enum class Stroke { Solid, Dashed };
+enum class Stroke { Solid, Dashed, Corners };
 enum class Ends { Open, Closed };
 
 /// A picture of pixels B, G, R, A, colours multiplied by alpha, that shows the part of the frame
@@ -27,7 +27,7 @@ class Canvas {
   /// Clears the pixels, which must outlive the canvas.
   Canvas(ImageView<uint32_t> pixels, Point origin, const Style& style);
 
-  void box(const Box& box, const Colour& colour, Stroke stroke);
+  void box(const Box& whole, const Colour& colour, Stroke stroke);
   void path(std::span<const Point> points, const Colour& colour, Ends ends);
   void arrow(Point from, Point to, const Colour& colour);
   void disc(Point centre, int radius, const Colour& colour);
@@ -37,8 +37,10 @@ class Canvas {
   [[nodiscard]] const Style& style() const { return style_; }
 
  private:
-  void line(Point from, Point to, const Colour& colour, int thickness);
-  void dashes(Point from, Point to, const Colour& colour, int thickness);
+  void line(Point from, Point to, const Colour& colour);
+  [[nodiscard]] int rimmedPx() const { return style_.linePx + 2 * style_.rimPx; }
+  void dashes(Point from, Point to, const Colour& colour);
+  void cornerMark(Point corner, Point towards, const Colour& colour);
   [[nodiscard]] cv::Point at(Point p) const { return {p.x - origin_.x, p.y - origin_.y}; }
 
   cv::Mat pixels_;

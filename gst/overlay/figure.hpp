@@ -30,20 +30,27 @@ struct Figure {
   Box box;
   Point centre;
   Point tip;  ///< Where it will be in half a second; the centre where it has no speed.
-  Point labelCorner;
-  std::string label;
+  Box label;  ///< Ground of the text.
+  std::string text;
   std::vector<Point> trail;
   std::vector<Point> contour;
 };
 
-/// Lays an object out; `figure` keeps its memory. What `parts` leaves out is left empty.
-void layOut(const Object& object, const Trails& trails, const FrameMap& map, const Parts& parts,
-            const Style& style, Figure& figure);
+/// What all figures of a frame have in common.
+struct Layout {
+  FrameMap map;  ///< From the result to the frame.
+  Parts parts;
+  Style style;
+};
+
+/// Lays an object out; `figure` keeps its memory. What the parts leave out is left empty.
+/// labels: the grounds of the labels so far, which this one keeps clear of if it can; it is added.
+void layOut(const Object& object, const Layout& layout, const Trails& trails,
+            std::vector<Box>& labels, Figure& figure);
 
 /// The part of the frame that the figure touches, lines' thickness included.
-[[nodiscard]] Box extentOf(const Figure& figure, const Parts& parts, const Style& style,
-                           Size frame);
+[[nodiscard]] Box extentOf(const Figure& figure, const Layout& layout);
 
-void draw(const Figure& figure, const Parts& parts, Canvas& canvas);
+void draw(const Figure& figure, const Layout& layout, Canvas& canvas);
 
 }  // namespace rg::overlay

@@ -36,43 +36,44 @@ void Painter::follow(const Objects& objects, int64_t nowNs, double trailLengthS)
 }
 
 CompositionPtr Painter::paint(const Scene& scene, const Views& views) {
-  const Style style = styleFor(scene.frame, views.scale);
-  layOutAll(scene, views, style);
+  const Layout layout = layOutAll(scene, views);
   int64_t sum = 0;
   for (const Box& extent : extents_) sum += extent.area();
-  const bool isWhole = hasGraphView(scene, views) || sum > scene.frame.area();
-  if (isWhole)
-    paintWhole(scene, views, style);
+  if (hasGraphView(scene, views) || sum > scene.frame.area())
+    paintWhole(scene, views, layout);
   else
-    paintEach(views, style);
+    paintEach(layout);
   return std::move(composition_);
 }
 
-void Painter::layOutAll(const Scene& scene, const Views& views, const Style& style) {
+Layout Painter::layOutAll(const Scene& scene, const Views& views) {
+  const Size madeFor = scene.objects ? scene.objects->size : scene.frame;
+  const Layout layout{mapBetween(madeFor, scene.frame), views, styleFor(scene.frame, views.scale)};
   figureCount_ = 0;
   extents_.clear();
-  if (!scene.objects || !views.any()) return;
-  const FrameMap map = mapBetween(scene.objects->size, scene.frame);
+  labels_.clear();
+  if (!scene.objects || !views.any()) return layout;
   for (const Object& object : scene.objects->objects) {
     if (!text::isListed(object.state)) continue;
     if (figureCount_ == figures_.size()) figures_.emplace_back();
     Figure& figure = figures_[figureCount_++];
-    layOut(object, trails_, map, views, style, figure);
-    extents_.push_back(extentOf(figure, views, style, scene.frame));
+    layOut(object, layout, trails_, labels_, figure);
+    extents_.push_back(extentOf(figure, layout));
   }
+  return layout;
 }
 
-void Painter::paintWhole(const Scene& scene, const Views& views, const Style& style) {
-  Canvas canvas = addRectangle(boundsOf(scene.frame), style);
+void Painter::paintWhole(const Scene& scene, const Views& views, const Layout& layout) {
+  Canvas canvas = addRectangle(boundsOf(scene.frame), layout.style);
   drawGraphView(scene, views, canvas);
-  for (size_t i = 0; i < figureCount_; ++i) draw(figures_[i], views, canvas);
+  for (size_t i = 0; i < figureCount_; ++i) draw(figures_[i], layout, canvas);
 }
 
-void Painter::paintEach(const Views& views, const Style& style) {
+void Painter::paintEach(const Layout& layout) {
   for (size_t i = 0; i < figureCount_; ++i) {
     if (extents_[i].isEmpty()) continue;
-    Canvas canvas = addRectangle(extents_[i], style);
-    draw(figures_[i], views, canvas);
+    Canvas canvas = addRectangle(extents_[i], layout.style);
+    draw(figures_[i], layout, canvas);
   }
 }
 

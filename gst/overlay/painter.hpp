@@ -49,14 +49,15 @@ class Painter {
   [[nodiscard]] CompositionPtr paint(const Scene& scene, const Views& views);
 
  private:
-  void layOutAll(const Scene& scene, const Views& views, const Style& style);
-  void paintWhole(const Scene& scene, const Views& views, const Style& style);
-  void paintEach(const Views& views, const Style& style);
+  [[nodiscard]] Layout layOutAll(const Scene& scene, const Views& views);
+  void paintWhole(const Scene& scene, const Views& views, const Layout& layout);
+  void paintEach(const Layout& layout);
   [[nodiscard]] Canvas addRectangle(const Box& box, const Style& style);
 
   Trails trails_;
   std::vector<Figure> figures_;  ///< The first figureCount_ are of this frame.
   std::vector<Box> extents_;
+  std::vector<Box> labels_;
   size_t figureCount_ = 0;
   Pool<Image<uint32_t>> pool_;
   CompositionPtr composition_;  ///< The one being made.

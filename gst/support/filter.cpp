@@ -99,6 +99,7 @@ struct FilterShell {
       }
       filter.info_ = info;
       filter.hasCaps_ = true;
+      filter.isDownstreamNew_ = true;
       filter.clock_.setFramerate(GST_VIDEO_INFO_FPS_N(&info), GST_VIDEO_INFO_FPS_D(&info));
       return TRUE;
     });
@@ -118,6 +119,11 @@ struct FilterShell {
       return TRUE;
     });
     return GST_BASE_TRANSFORM_CLASS(parentClass)->sink_event(element, event);
+  }
+
+  static gboolean srcEvent(GstBaseTransform* element, GstEvent* event) {
+    if (GST_EVENT_TYPE(event) == GST_EVENT_RECONFIGURE) filterOf(element).isDownstreamNew_ = true;
+    return GST_BASE_TRANSFORM_CLASS(parentClass)->src_event(element, event);
   }
 
   static void handleEvent(Filter& filter, GstEvent* event) {
@@ -155,21 +161,14 @@ struct FilterShell {
       const bool isUsable = !GST_BUFFER_FLAG_IS_SET(buffer, GST_BUFFER_FLAG_GAP) &&
                             !GST_BUFFER_FLAG_IS_SET(buffer, GST_BUFFER_FLAG_CORRUPTED);
       const bool isFirst = std::exchange(filter.isFirst_, false);
-      return filter.process({buffer, filter.info_, tick.time, isFirst, isUsable});
+      const bool isDownstreamNew = filter.isDownstreamNew_.exchange(false);
+      return filter.process({buffer, filter.info_, tick.time, isFirst, isDownstreamNew, isUsable});
     });
   }
 
   /// Buffers go on as they came, so what upstream may allocate is for downstream to say.
   static gboolean proposeAllocation(GstBaseTransform* element, GstQuery*, GstQuery* query) {
     return gst_pad_peer_query(GST_BASE_TRANSFORM_SRC_PAD(element), query);
-  }
-
-  static gboolean decideAllocation(GstBaseTransform* element, GstQuery* query) {
-    guarded(element, FALSE, [&]() -> gboolean {
-      filterOf(element).decideAllocation(query);
-      return TRUE;
-    });
-    return GST_BASE_TRANSFORM_CLASS(parentClass)->decide_allocation(element, query);
   }
 
   static void initClass(gpointer klass, gpointer data) {
@@ -200,8 +199,8 @@ struct FilterShell {
     transformClass->stop = stop;
     transformClass->set_caps = setCaps;
     transformClass->sink_event = sinkEvent;
+    transformClass->src_event = srcEvent;
     transformClass->transform_ip = transform;
-    transformClass->decide_allocation = decideAllocation;
     transformClass->propose_allocation = proposeAllocation;
   }
 

@@ -10,6 +10,7 @@
 #include <gst/base/gstbasetransform.h>
 #include <gst/video/video.h>
 
+#include <atomic>
 #include <mutex>
 #include <span>
 #include <string>
@@ -45,7 +46,8 @@ struct FilterFrame {
   GstBuffer* buffer;         ///< Metas may be added, pixels are shared.
   const GstVideoInfo& info;  ///< Of the negotiated caps.
   FrameTime time;
-  bool isFirst;   ///< First since the caps: what is missing here was never there.
+  bool isFirst;          ///< First since the caps: what is missing here was never there.
+  bool isDownstreamNew;  ///< First since the caps, or since downstream asked to negotiate again.
   bool isUsable;  ///< False for GAP and CORRUPTED buffers: to be skipped, nothing to be learnt.
 };
 
@@ -65,8 +67,6 @@ class Filter {
   virtual void stop() {}
   virtual void reset(Reset what) { (void)what; }
   virtual void endOfStream() {}
-  /// Downstream's answer to the allocation query, after each negotiation.
-  virtual void decideAllocation(GstQuery* query) { (void)query; }
   virtual GstFlowReturn process(const FilterFrame& frame) = 0;
 
   [[nodiscard]] std::mutex& settingsMutex() { return settingsMutex_; }
@@ -92,6 +92,7 @@ class Filter {
   GstVideoInfo info_{};
   bool hasCaps_ = false;
   bool isFirst_ = true;
+  std::atomic<bool> isDownstreamNew_ = true;  ///< Set by the thread that downstream asks on.
   std::string streamId_;
   StreamClock clock_;
 };
