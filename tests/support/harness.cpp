@@ -88,6 +88,12 @@ void registerElements() {
   GST_ELEMENT_REGISTER(srg, nullptr);
   GST_ELEMENT_REGISTER(prmmotion, nullptr);
   GST_ELEMENT_REGISTER(mrfmerge, nullptr);
+  GST_ELEMENT_REGISTER(regionmask, nullptr);
+  GST_ELEMENT_REGISTER(regiontrack, nullptr);
+  GST_ELEMENT_REGISTER(regionwrite, nullptr);
+#ifdef REGIONGRAPH_HAS_OVERLAY
+  GST_ELEMENT_REGISTER(regionoverlay, nullptr);
+#endif
 }
 
 }  // namespace rg::testing

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The parts that regionoverlay is made of.
+#include "gst/overlay/figure.hpp"
+#include "gst/overlay/painter.hpp"
+#include "gst/overlay/trails.hpp"
+#include "tests/support/results.hpp"
+
+#include <gst/gst.h>
+#include <gtest/gtest.h>
+
+namespace rg::overlay {
+namespace {
+
+using testing::object;
+using testing::objects;
+
+constexpr int64_t kSecond = 1'000'000'000;
+constexpr Size kSize{640, 480};
+
+std::vector<Point> trailOf(const Trails& trails, const Object& object) {
+  std::vector<Point> points;
+  trails.copy(object, points);
+  return points;
+}
+
+TEST(Trails, KeepTheWayInOrderAndEndWhereTheObjectIs) {
+  Trails trails;
+  for (int i = 0; i < 3; ++i)
+    trails.advance(*objects(kSize, {object(7, {10 * i, 0, 2, 2})}), i * kSecond / 10, kSecond);
+  EXPECT_EQ(trailOf(trails, object(7, {90, 0, 2, 2})),
+            (std::vector<Point>{{16, 16}, {176, 16}, {336, 16}, {1456, 16}}));
+  EXPECT_EQ(trailOf(trails, object(8, {90, 0, 2, 2})).size(), 1u);
+}
+
+TEST(Trails, ForgetWhatIsOlderThanTheirLength) {
+  Trails trails;
+  for (int i = 0; i < 100; ++i)
+    trails.advance(*objects(kSize, {object(7, {i, 0, 2, 2})}), i * kSecond / 10, kSecond);
+  const auto points = trailOf(trails, object(7, {100, 0, 2, 2}));
+  EXPECT_EQ(points.front().x, (89 + 1) * kPositionUnit);
+  EXPECT_EQ(points.size(), 12u);
+}
+
+TEST(Trails, ALongTrailHasNoMorePointsThanAShortOne) {
+  Trails trails;
+  const auto list = objects(kSize, {object(7, {0, 0, 2, 2})});
+  for (int i = 0; i < 10'000; ++i) trails.advance(*list, i * kSecond / 25, 300 * kSecond);
+  EXPECT_LE(trailOf(trails, list->objects[0]).size(), 64u);
+}
+
+TEST(Trails, MoveWithTheSceneUnderAMovingCamera) {
+  Trails trails;
+  auto list = objects(kSize, {object(7, {10, 10, 2, 2})});
+  trails.advance(*list, 0, kSecond);
+  auto panned = objects(kSize, {object(7, {5, 10, 2, 2})});
+  panned->cameraDx = -5 * kPositionUnit;
+  trails.advance(*panned, kSecond / 10, kSecond);
+  const auto points = trailOf(trails, panned->objects[0]);
+  for (const Point& point : points) EXPECT_EQ(point, points.back());
+}
+
+TEST(Trails, EndWithTheirObject) {
+  Trails trails;
+  trails.advance(*objects(kSize, {object(7, {10, 10, 2, 2})}), 0, kSecond);
+  trails.advance(*objects(kSize, {}), 2 * kSecond, kSecond);
+  EXPECT_EQ(trailOf(trails, object(7, {0, 0, 2, 2})).size(), 1u);
+}
+
+Figure figureOf(const Object& object, Size frame, std::vector<Box>& labels) {
+  Figure figure;
+  layOut(object, {{kSize, frame}, {}, styleFor(frame, 1)}, {}, labels, figure);
+  return figure;
+}
+
+TEST(Figure, FollowsTheFramesScale) {
+  std::vector<Box> labels;
+  const Figure figure = figureOf(object(1, {100, 100, 20, 40}), {1280, 240}, labels);
+  EXPECT_EQ(figure.box, (Box{200, 50, 40, 20}));
+  EXPECT_EQ(figure.centre, (Point{220, 60}));
+  EXPECT_EQ(figure.tip, (Point{236, 60}));
+}
+
+TEST(Figure, WordsSayTheState) {
+  std::vector<Box> labels;
+  const Box box{100, 100, 20, 40};
+  EXPECT_EQ(figureOf(object(12, box), kSize, labels).text, "12");
+  EXPECT_EQ(figureOf(object(12, box, ObjectState::Stopped), kSize, labels).text, "12 stopped");
+  EXPECT_EQ(figureOf(object(12, box, ObjectState::Occluded), kSize, labels).text, "12 occluded");
+  EXPECT_EQ(figureOf(object(12, box, ObjectState::Stopped), {160, 120}, labels).text, "12");
+}
+
+TEST(Figure, LabelsStayInTheFrameAndClearOfEachOther) {
+  std::vector<Box> labels;
+  for (const Box box : {Box{-30, -30, 50, 50}, Box{630, 470, 50, 50}, Box{300, 200, 20, 40},
+                        Box{302, 202, 20, 40}, Box{304, 198, 20, 40}})
+    figureOf(object(123, box), kSize, labels);
+  for (size_t i = 0; i < labels.size(); ++i) {
+    EXPECT_EQ(intersect(labels[i], boundsOf(kSize)), labels[i]) << i;
+    for (size_t k = 0; k < i; ++k) EXPECT_TRUE(intersect(labels[i], labels[k]).isEmpty());
+  }
+}
+
+TEST(Style, GrowsWithTheFrame) {
+  EXPECT_EQ(styleFor({160, 120}, 1).linePx, 1);
+  EXPECT_EQ(styleFor({3840, 2160}, 1).linePx, 7);
+  EXPECT_EQ(styleFor({3840, 2160}, 1).textPx, 48);
+  EXPECT_GE(styleFor({1, 1}, 0.25).textPx, 7);
+}
+
+TEST(Painter, HasNothingToDrawWithoutObjects) {
+  Painter painter;
+  EXPECT_FALSE(painter.paint({kSize}, {}));
+  EXPECT_FALSE(painter.paint({kSize, 25, objects(kSize, {}).get()}, {}));
+  const auto hidden = objects(kSize, {object(1, {5, 5, 9, 9}, ObjectState::Lost),
+                                      object(2, {5, 5, 9, 9}, ObjectState::New)});
+  EXPECT_FALSE(painter.paint({kSize, 25, hidden.get()}, {}));
+}
+
+int64_t areaOf(const CompositionPtr& composition) {
+  int64_t area = 0;
+  for (guint i = 0; i < gst_video_overlay_composition_n_rectangles(composition.get()); ++i) {
+    gint x = 0, y = 0;
+    guint width = 0, height = 0;
+    gst_video_overlay_rectangle_get_render_rectangle(
+        gst_video_overlay_composition_get_rectangle(composition.get(), i), &x, &y, &width, &height);
+    area += int64_t{width} * height;
+  }
+  return area;
+}
+
+TEST(Painter, DrawsARectangleForEachObject) {
+  Painter painter;
+  const auto list = objects(kSize, {object(1, {50, 50, 40, 80}), object(2, {300, 300, 40, 80})});
+  const auto composition = painter.paint({kSize, 25, list.get()}, {});
+  ASSERT_TRUE(composition);
+  EXPECT_EQ(gst_video_overlay_composition_n_rectangles(composition.get()), 2u);
+  EXPECT_LT(areaOf(composition), kSize.area() / 10);
+}
+
+TEST(Painter, NeverDrawsMoreThanTheFrame) {
+  Painter painter;
+  std::vector<Object> many;
+  for (uint64_t id = 1; id <= 500; ++id)
+    many.push_back(object(id, {-1000, -1000 + static_cast<int>(id), 3000, 3000}));
+  const auto list = objects(kSize, many);
+  const auto composition = painter.paint({kSize, 25, list.get()}, {});
+  ASSERT_TRUE(composition);
+  EXPECT_EQ(areaOf(composition), kSize.area());
+}
+
+TEST(Painter, SurvivesBoxesFarOutside) {
+  Painter painter;
+  constexpr int kFar = 50'000'000;
+  auto far = object(1, {kFar, -kFar, 5, 5}, ObjectState::Occluded);
+  auto huge = object(2, {-kFar, -kFar, 2 * kFar, 2 * kFar}, ObjectState::Occluded);
+  far.speedX = huge.speedY = INT32_MAX;
+  const auto list = objects({1, 1}, {far, huge});
+  for (const Size size : {Size{1, 1}, kSize}) {
+    list->size = size;
+    EXPECT_TRUE(painter.paint({size, 25, list.get()}, {}));
+  }
+}
+
+}  // namespace
+}  // namespace rg::overlay

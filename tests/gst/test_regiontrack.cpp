@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "core/text/json.hpp"
+#include "gst/elements.hpp"
+#include "tests/support/harness.hpp"
+#include "tests/support/results.hpp"
+
+#include <gtest/gtest.h>
+
+namespace rg {
+namespace {
+
+using testing::BufferPtr;
+using testing::Caps;
+using testing::Chain;
+using testing::paint;
+using testing::square;
+
+constexpr const char* kNames[] = {"bgremove", "hsvsegment", "srg", "prmmotion", "mrfmerge"};
+
+/// What the element or elements say of a square that crosses the picture.
+std::string story(const std::string& line) {
+  const Caps caps{"I420", 96, 64};
+  Chain chain(line, caps);
+  std::string text;
+  for (int i = 0; i < 40; ++i) {
+    const BufferPtr out =
+        chain.pass(paint(caps, i, i < 10 ? square(0, 0, 0) : square(2 * (i - 10), 20, 18)));
+    const auto objects = out ? findResult<Objects>(out.get()) : nullptr;
+    if (!objects) return "no objects on frame " + std::to_string(i);
+    text::appendJson(text, *objects, {static_cast<uint64_t>(i) + 1, {96, 64}, {}, {}},
+                     text::Contours::Write);
+  }
+  return text;
+}
+
+TEST(RegionTrack, SaysWhatTheFiveElementsSay) {
+  const std::string five = story("bgremove ! hsvsegment ! srg ! prmmotion ! mrfmerge");
+  EXPECT_NE(five.find("\"id\":"), std::string::npos) << five.substr(0, 300);
+  EXPECT_EQ(story("regiontrack"), five);
+}
+
+TEST(RegionTrack, HasAChildForEachElementUnderItsName) {
+  GstElement* bin = gst_element_factory_make("regiontrack", nullptr);
+  auto* proxy = GST_CHILD_PROXY(bin);
+  EXPECT_EQ(gst_child_proxy_get_children_count(proxy), 5u);
+  for (const char* name : kNames) {
+    GObject* child = gst_child_proxy_get_child_by_name(proxy, name);
+    ASSERT_TRUE(child) << name;
+    EXPECT_STREQ(GST_OBJECT_NAME(gst_element_get_factory(GST_ELEMENT(child))), name);
+    g_object_unref(child);
+  }
+  gst_child_proxy_set(proxy, "bgremove::threshold", 30, nullptr);
+  int threshold = 0;
+  gst_child_proxy_get(proxy, "bgremove::threshold", &threshold, nullptr);
+  EXPECT_EQ(threshold, 30);
+  gst_object_unref(bin);
+}
+
+TEST(RegionTrack, PassesThreadsToEachChild) {
+  GstElement* bin = gst_element_factory_make("regiontrack", nullptr);
+  g_object_set(bin, "threads", 3, nullptr);
+  int threads = 0;
+  g_object_get(bin, "threads", &threads, nullptr);
+  EXPECT_EQ(threads, 3);
+  for (const char* name : kNames) {
+    gst_child_proxy_get(GST_CHILD_PROXY(bin), (std::string(name) + "::threads").c_str(), &threads,
+                        nullptr);
+    EXPECT_EQ(threads, 3) << name;
+  }
+  gst_object_unref(bin);
+}
+
+TEST(RegionTrack, SetsChildrenFromALaunchLine) {
+  GError* error = nullptr;
+  GstElement* pipeline = gst_parse_launch(
+      "fakesrc ! regiontrack name=t bgremove::threshold=42 mrfmerge::max-lost-time=4.5 ! fakesink",
+      &error);
+  ASSERT_FALSE(error) << error->message;
+  GstElement* bin = gst_bin_get_by_name(GST_BIN(pipeline), "t");
+  int threshold = 0;
+  double seconds = 0;
+  gst_child_proxy_get(GST_CHILD_PROXY(bin), "bgremove::threshold", &threshold,
+                      "mrfmerge::max-lost-time", &seconds, nullptr);
+  EXPECT_EQ(threshold, 42);
+  EXPECT_EQ(seconds, 4.5);
+  gst_object_unref(bin);
+  gst_object_unref(pipeline);
+}
+
+TEST(RegionTrack, NeedsNoRegistry) {
+  auto* bin = GST_ELEMENT(g_object_new(gst_region_track_get_type(), nullptr));
+  gst_object_ref_sink(bin);
+  EXPECT_EQ(GST_BIN_NUMCHILDREN(bin), 5);
+  for (const char* name : {"sink", "src"}) {
+    GstPad* pad = gst_element_get_static_pad(bin, name);
+    EXPECT_TRUE(pad);
+    gst_object_unref(pad);
+  }
+  gst_object_unref(bin);
+}
+
+TEST(RegionTrack, StartsAndStopsManyTimes) {
+  GstElement* bin = gst_element_factory_make("regiontrack", nullptr);
+  for (int i = 0; i < 20; ++i) {
+    EXPECT_EQ(gst_element_set_state(bin, GST_STATE_PLAYING), GST_STATE_CHANGE_SUCCESS);
+    EXPECT_EQ(gst_element_set_state(bin, GST_STATE_NULL), GST_STATE_CHANGE_SUCCESS);
+  }
+  gst_object_unref(bin);
+}
+
+}  // namespace
+}  // namespace rg
