@@ -3,7 +3,7 @@
 # shellcheck shell=bash
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
-build=${BUILD_DIR:-$root/build-release}
+build=$(realpath -m "${BUILD_DIR:-$root/build-release}")
 program=$(basename "$0")
 
 fail() {

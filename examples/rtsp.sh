@@ -12,7 +12,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 build_elements >&2
 
 in_build gst-launch-1.0 -q \
-  rtspsrc location="$1" latency=200 ! decodebin ! videoconvert ! \
+  rtspsrc location="$1" latency=200 ! application/x-rtp,media=video ! decodebin ! videoconvert ! \
   queue leaky=downstream max-size-buffers=2 max-size-bytes=0 max-size-time=0 ! \
   bgremove ! hsvsegment ! srg ! prmmotion ! mrfmerge ! \
   regionwrite format=jsonl location=- ! fakesink sync=false

@@ -7,17 +7,23 @@
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
-build=${BUILD_DIR:-$root/build}
+build=$(realpath -m "${BUILD_DIR:-$root/build}")
 video=$(realpath "${1:?usage: determinism.sh VIDEO [FRAMES]}")
 frames=${2:-250}
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 
+in_build() { meson devenv -C "$build" gst-launch-1.0 -q "$@"; }
+
+# The frames are cut out once: with a decoder that works on several frames at a time, which frame is
+# the last one before an early end is a matter of chance.
+in_build filesrc location="$video" ! decodebin ! identity eos-after="$frames" ! videoconvert ! \
+  jpegenc quality=95 ! avimux ! filesink location="$folder/clip.avi"
+
 write_objects() {  # NAME ELEMENTS...
   local name=$1
   shift
-  meson devenv -C "$build" gst-launch-1.0 -q \
-    filesrc location="$video" ! decodebin ! identity eos-after="$frames" ! videoconvert ! "$@" ! \
+  in_build filesrc location="$folder/clip.avi" ! decodebin ! videoconvert ! "$@" ! \
     regionwrite format=jsonl location="$folder/$name" ! fakesink sync=false
 }
 

@@ -6,7 +6,7 @@
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
-build=${BUILD_DIR:-$root/build}
+build=$(realpath -m "${BUILD_DIR:-$root/build}")
 video=$(realpath "${1:?usage: leaks.sh VIDEO [FRAMES]}")
 frames=${2:-60}
 log=$(mktemp)
