@@ -124,7 +124,7 @@ void HybridBackground::clean(const BackgroundJob& job, ImageView<uint8_t> mask) 
   keepMajority(raw_, radius, kMajority, job.executor, scratch_, mask);
   keepSupported(mask, strong_, std::max(4u, pixels / 10000), scratch_);
   fillHoles(mask, pixels / 50, scratch_);
-  fillUnedged(smooth_.planes[0], kMostGapStep, pixels / 5, gaps_, mask);
+  fillUnedged(smooth_.planes[0], kMostGapStep, pixels / 5, job.executor, gaps_, mask);
   dropSmallParts(mask, std::max(8u, pixels / 4000), scratch_);
 }
 

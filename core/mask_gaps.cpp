@@ -9,25 +9,34 @@
 namespace rg {
 namespace {
 
-void thicken(ImageView<const uint8_t> mask, int margin, Image<uint8_t>& across,
-             ImageView<uint8_t> out) {
+void thickenRow(const uint8_t* from, int width, int margin, uint8_t* to) {
+  std::copy_n(from, width, to);
+  for (int step = 1; step <= std::min(margin, width - 1); ++step) {
+    for (int x = step; x < width; ++x) to[x] |= from[x - step];
+    for (int x = 0; x + step < width; ++x) to[x] |= from[x + step];
+  }
+}
+
+void thicken(ImageView<const uint8_t> mask, int margin, const Executor& executor,
+             GapScratch& scratch) {
   const int width = mask.width(), height = mask.height();
-  across.copyFrom(mask);
-  for (int y = 0; y < height; ++y) {
-    const uint8_t* here = mask.row(y);
-    uint8_t* to = across.row(y);
-    for (int step = 1; step <= std::min(margin, width - 1); ++step) {
-      for (int x = step; x < width; ++x) to[x] |= here[x - step];
-      for (int x = 0; x + step < width; ++x) to[x] |= here[x + step];
+  scratch.across.resize(mask.size);
+  scratch.thick.resize(mask.size);
+  executor.forRows(height, [&](int first, int last) {
+    for (int y = first; y < last; ++y)
+      thickenRow(mask.row(y), width, margin, scratch.across.row(y));
+  });
+  executor.forRows(height, [&](int first, int last) {
+    for (int y = first; y < last; ++y) {
+      uint8_t* to = scratch.thick.row(y);
+      std::fill_n(to, width, uint8_t{0});
+      const int bottom = std::min(height - 1, y + margin);
+      for (int row = std::max(0, y - margin); row <= bottom; ++row) {
+        const uint8_t* from = scratch.across.row(row);
+        for (int x = 0; x < width; ++x) to[x] |= from[x];
+      }
     }
-  }
-  for (int y = 0; y < height; ++y) {
-    uint8_t* to = out.row(y);
-    std::fill_n(to, width, uint8_t{0});
-    const int last = std::min(height - 1, y + margin);
-    for (int row = std::max(0, y - margin); row <= last; ++row)
-      for (int x = 0; x < width; ++x) to[x] |= across.row(row)[x];
-  }
+  });
 }
 
 void addStep(ImageView<const uint8_t> picture, int reach, Point p, Point direction,
@@ -65,10 +74,9 @@ bool isGap(const Component& part, const GapContour& contour, int mostStep, uint3
 }  // namespace
 
 void fillUnedged(ImageView<const uint8_t> picture, int mostStep, uint32_t mostPx,
-                 GapScratch& scratch, ImageView<uint8_t> mask) {
-  scratch.thick.resize(mask.size);
+                 const Executor& executor, GapScratch& scratch, ImageView<uint8_t> mask) {
   const int margin = std::clamp(mask.height() / 40, 1, 4);
-  thicken(mask, margin, scratch.across, scratch.thick);
+  thicken(mask, margin, executor, scratch);
   findComponents(scratch.thick, 0, Connectivity::Four, scratch.parts);
   const std::vector<Component>& list = scratch.parts.list;
   scratch.contours.assign(list.size(), {});

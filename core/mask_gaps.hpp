@@ -6,6 +6,7 @@
 #pragma once
 
 #include "core/components.hpp"
+#include "core/executor.hpp"
 #include "core/image.hpp"
 
 #include <cstdint>
@@ -30,6 +31,6 @@ struct GapScratch {
 /// Sets unset parts of at most `mostPx` pixels that touch at most one side of the frame and whose
 /// border to the mask has a mean step of at most `mostStep` grey levels in `picture`.
 void fillUnedged(ImageView<const uint8_t> picture, int mostStep, uint32_t mostPx,
-                 GapScratch& scratch, ImageView<uint8_t> mask);
+                 const Executor& executor, GapScratch& scratch, ImageView<uint8_t> mask);
 
 }  // namespace rg
