@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "core/mask_cleaning.hpp"
+#include "core/mask_gaps.hpp"
+#include "tests/support/text_picture.hpp"
+
+#include <gtest/gtest.h>
+
+namespace rg {
+namespace {
+
+using test::drawMask;
+using test::textOf;
+using Lines = std::vector<std::string>;
+
+Lines majority(const Lines& lines, int radius, int share, int threads = 1) {
+  const Image<uint8_t> mask = drawMask(lines);
+  Image<uint8_t> out(mask.size());
+  CleaningScratch scratch;
+  keepMajority(mask, radius, share, Executor(threads), scratch, out);
+  return textOf(out);
+}
+
+TEST(MaskCleaning, TheMedianDropsSpecksAndFillsPinholes) {
+  EXPECT_EQ(majority({"....", ".#..", "....", "...."}, 1, 128),
+            (Lines{"....", "....", "....", "...."}));
+  EXPECT_EQ(majority({"#####", "#####", "##.##", "#####", "#####"}, 1, 128)[2], "#####");
+}
+
+TEST(MaskCleaning, PixelsOutsideCountAsUnset) {
+  EXPECT_EQ(majority({"###", "###", "###"}, 1, 128), (Lines{".#.", "###", ".#."}));
+}
+
+TEST(MaskCleaning, AWindowWiderThanThePictureStaysInside) {
+  EXPECT_EQ(majority({"#"}, 7, 0), (Lines{"#"}));
+  EXPECT_EQ(majority({"#.", "##"}, 5, 0), (Lines{"##", "##"}));
+}
+
+TEST(MaskCleaning, ThreadsChangeNothing) {
+  Lines lines;
+  uint32_t state = 3;
+  for (int y = 0; y < 100; ++y) {
+    std::string line;
+    for (int x = 0; x < 67; ++x)
+      line += (state = state * 1664525u + 1013904223u) >> 31 == 0 ? '.' : '#';
+    lines.push_back(line);
+  }
+  EXPECT_EQ(majority(lines, 3, 120, 1), majority(lines, 3, 120, 2));
+}
+
+TEST(MaskCleaning, SmallPartsGoByTheirFourConnectedArea) {
+  Image<uint8_t> mask = drawMask({"##...", "..##.", "..##."});
+  CleaningScratch scratch;
+  dropSmallParts(mask, 3, scratch);
+  EXPECT_EQ(textOf(mask), (Lines{".....", "..##.", "..##."}));
+}
+
+TEST(MaskCleaning, OnlyEnclosedSmallHolesAreFilled) {
+  Image<uint8_t> mask = drawMask({"#####.", "#.#.#.", "#####.", "#..###", "#..#.#", "####.#"});
+  CleaningScratch scratch;
+  fillHoles(mask, 2, scratch);
+  // The two pinholes go; the hole of four is too large, the crack reaches the border.
+  EXPECT_EQ(textOf(mask), (Lines{"#####.", "#####.", "#####.", "#..###", "#..#.#", "####.#"}));
+}
+
+TEST(MaskCleaning, HysteresisKeepsWeakPixelsThatTouchStrongOnes) {
+  Image<uint8_t> mask = drawMask({"###..##", "..#..##"});
+  const Image<uint8_t> strong = drawMask({"..#....", "..#...."});
+  CleaningScratch scratch;
+  keepSupported(mask, strong, 2, scratch);
+  EXPECT_EQ(textOf(mask), (Lines{"###....", "..#...."}));
+}
+
+Lines filled(const Lines& lines, const Box& box) {
+  const Image<uint8_t> edges = drawMask(lines);
+  Image<uint8_t> out(edges.size());
+  out.fill(0);
+  CleaningScratch scratch;
+  fillLines(edges, box, scratch, out);
+  return textOf(out);
+}
+
+TEST(LineSegmentation, FillsWhatRowsAndColumnsBothEnclose) {
+  EXPECT_EQ(filled({".##.", "#..#", "#..#", ".##."}, {0, 0, 4, 4}),
+            (Lines{".##.", "####", "####", ".##."}));
+}
+
+TEST(LineSegmentation, AnOpenSideStaysOpen) {
+  // No edge below the arc's inside: columns 1 and 2 end with their only edge pixel.
+  EXPECT_EQ(filled({"####", "#..#", "#..#"}, {0, 0, 4, 3}), (Lines{"####", "#..#", "#..#"}));
+}
+
+TEST(LineSegmentation, LooksOnlyInsideItsBox) {
+  EXPECT_EQ(filled({"#.#.#", "#.#.#"}, {2, 0, 3, 2}), (Lines{"..#.#", "..#.#"}));
+  EXPECT_EQ(filled({"#"}, {0, 0, 1, 1}), (Lines{"#"}));
+}
+
+Lines gapsFilled(uint8_t inside, uint32_t mostPx) {
+  Lines lines(24, std::string(24, '.'));
+  for (size_t y = 4; y < 24; ++y)
+    for (size_t x = 4; x < 20; ++x)
+      if (y < 8 || x < 8 || x >= 16) lines[y][x] = '#';
+  Image<uint8_t> mask = drawMask(lines);
+  // The body is 40 bright, the wall 200; what lies between the arms is asked for.
+  Image<uint8_t> picture(mask.size());
+  for (int y = 0; y < 24; ++y)
+    for (int x = 0; x < 24; ++x)
+      picture.at(x, y) = mask.at(x, y) != 0 ? 40 : x >= 8 && x < 16 && y >= 8 ? inside : 200;
+  GapScratch scratch;
+  fillUnedged(picture, 14, mostPx, Executor(1), scratch, mask);
+  return textOf(mask);
+}
+
+TEST(MaskGaps, ABorderWithoutAnEdgeIsNoBorder) {
+  EXPECT_EQ(gapsFilled(42, 200)[20], "....################....");
+}
+
+TEST(MaskGaps, ARealEdgeKeepsTheGap) {
+  EXPECT_EQ(gapsFilled(200, 200)[20], "....####........####....");
+}
+
+TEST(MaskGaps, LargeGapsStay) {
+  EXPECT_EQ(gapsFilled(42, 20)[20], "....####........####....");
+}
+
+}  // namespace
+}  // namespace rg
