@@ -96,6 +96,8 @@ void Tracker::update(const Evidence& evidence, std::span<const Group> groups, in
   for (size_t i = 0; i < sightings_.size(); ++i) learnSize(i, evidence);
   learnScale(evidence);
   joinDoubles(stepNs);
+  findCompany(stepNs);
+  tellCompany();
   settle(stepNs, params);
 }
 
@@ -159,8 +161,9 @@ void Tracker::sight(const Evidence& e) {
       }
     const Track& track = tracks_[i];
     const int64_t height = s.box.height * int64_t{kUnit}, width = s.box.width * int64_t{kUnit};
+    const bool isSole = blobOf_[i] != 0 && soleTrack_[blobOf_[i]] == i + 1;
     const bool isUsual =
-        !isSizeKnown(track) ||
+        (isSole && !isSizeKnown(track)) ||
         (4 * height >= 3 * track.size.height && 4 * height <= 5 * track.size.height &&
          2 * width >= track.size.width && 2 * width <= 3 * track.size.width);
     s.isWhole = !s.box.isEmpty() && isUsual && 5 * s.othersCells < s.boxCells;

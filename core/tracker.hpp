@@ -42,7 +42,10 @@ struct Track {
   int32_t learntX = 0, learntFoot = 0;  ///< Where the scene's scale last learnt from it.
   uint16_t fill = 150;                  ///< Share of its box that is foreground, in 1/256.
   bool isSeen = false;                  ///< In this frame.
-  int64_t doubleNs = 0;                 ///< Since it looks like a part of another track.
+  uint64_t company = 0;                 ///< Smallest id of those that it shares a blob with.
+  uint64_t nextCompany = 0;
+  int64_t companyNs = 0;  ///< Since nextCompany holds.
+  int64_t doubleNs = 0;   ///< Since it looks like a part of another track.
   bool isOver = false;
   bool hasMoved = false;
   bool isFromBorder = false;  ///< First seen where things come into the picture.
@@ -127,12 +130,16 @@ class Tracker {
   static void comeBack(Track& track, const Newcomer& newcomer);
   void correct(size_t index, int64_t stepNs);
   void learnSize(size_t index, const Evidence& evidence);
+  [[nodiscard]] uint64_t parentOf(const Newcomer& newcomer) const;
   void begin(const Newcomer& newcomer);
   [[nodiscard]] bool isCovered(const Track& track) const;
   void fitSizeToScene(Track& track) const;
   void learnScale(const Evidence& evidence);
   [[nodiscard]] bool areOneBody(size_t a, size_t b) const;
   void joinDoubles(int64_t stepNs);
+  void findCompany(int64_t stepNs);
+  void tellCompany();
+  void tellNew(const Track& track);
   void settleState(Track& track, int64_t stepNs) const;
   void settle(int64_t stepNs, const TrackerParams& params);
 
@@ -163,6 +170,7 @@ class Tracker {
   std::vector<int> trackOfNewcomer_;
   std::vector<uint32_t> touching_;
   std::vector<uint16_t> trackIndex_;
+  std::vector<uint64_t> companyBefore_;
   std::vector<int64_t> costs_;
   Assignment assignment_;
 };

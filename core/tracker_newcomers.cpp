@@ -201,6 +201,22 @@ void Tracker::comeBack(Track& track, const Newcomer& newcomer) {
   ++track.hits;
 }
 
+/// The object that a newcomer comes out of: the one that it touches, or whose place it overlaps
+/// most when it appears right beside it. 0 = none.
+uint64_t Tracker::parentOf(const Newcomer& newcomer) const {
+  if (newcomer.parent != 0 || newcomer.isAtBorder) return newcomer.parent;
+  uint64_t parent = 0;
+  int64_t most = 0;
+  for (const Track& track : tracks_) {
+    const Box box = track.box();
+    const int64_t shared = intersect(inflate(box, box.width / 3), newcomer.box).area();
+    if (!track.isConfirmed || !track.isSeen || shared <= most) continue;
+    most = shared;
+    parent = track.id;
+  }
+  return parent;
+}
+
 void Tracker::begin(const Newcomer& newcomer) {
   Track track;
   track.id = nextId_++;
@@ -220,7 +236,7 @@ void Tracker::begin(const Newcomer& newcomer) {
       if (box.bottom() >= frame_.height) track.foot = box.y * kUnit + expected.height;
     }
   }
-  if (newcomer.parent != 0) track.parents.push_back(newcomer.parent);
+  if (const uint64_t parent = parentOf(newcomer)) track.parents.push_back(parent);
   track.stillX = track.learntX = track.x;
   track.stillFoot = track.learntFoot = track.foot;
   track.look = newcomer.appearance;

@@ -177,6 +177,14 @@ void Tracker::settleState(Track& track, int64_t stepNs) const {
     track.state = ObjectState::Lost;
 }
 
+/// A new object, and what it came out of if that is still there.
+void Tracker::tellNew(const Track& track) {
+  events_.push_back({EventKind::ObjectNew, {track.id}});
+  for (const Track& parent : tracks_)
+    if (!track.parents.empty() && parent.id == track.parents.front() && parent.isConfirmed)
+      events_.push_back({EventKind::Split, {parent.id, track.id}});
+}
+
 /// States of all tracks; ends those that are gone and says so.
 void Tracker::settle(int64_t stepNs, const TrackerParams& params) {
   for (const uint64_t id : ended_) events_.push_back({EventKind::ObjectEnd, {id}});
@@ -193,7 +201,7 @@ void Tracker::settle(int64_t stepNs, const TrackerParams& params) {
     const bool isOver =
         track.isOver || hasLeft ||
         (track.isConfirmed ? track.unseenNs > params.maxLostNs : track.unseenNs > kFlickerNs);
-    if (!wasConfirmed && track.isConfirmed) events_.push_back({EventKind::ObjectNew, {track.id}});
+    if (!wasConfirmed && track.isConfirmed) tellNew(track);
     if (isOver) {
       if (track.isConfirmed) events_.push_back({EventKind::ObjectEnd, {track.id}});
       continue;

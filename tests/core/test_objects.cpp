@@ -222,6 +222,36 @@ TEST(Objects, CrossingBodiesKeepTheirNumbers) {
   EXPECT_NE(ids[0], ids[1]);
 }
 
+TEST(Objects, MeetingAndPartingAreToldOnce) {
+  Scene scene;
+  std::vector<Event> merges, splits;
+  for (int i = 0; i < 75; ++i) {
+    const auto objects =
+        scene.show({{{30 + 3 * i, 80, 24, 60}, kRed}, {{260 - 3 * i, 84, 24, 60}, kBlue}});
+    for (const Event& event : objects->events) {
+      if (event.kind == EventKind::Merge) merges.push_back(event);
+      if (event.kind == EventKind::Split) splits.push_back(event);
+    }
+  }
+  ASSERT_EQ(merges.size(), 1u);
+  ASSERT_EQ(splits.size(), 1u);
+  EXPECT_EQ(merges[0].ids, (std::vector<uint64_t>{1, 2}));
+  EXPECT_EQ(splits[0].ids, (std::vector<uint64_t>{1, 2}));
+}
+
+TEST(Objects, WhatComesOutOfAnObjectNamesItsParent) {
+  Scene scene;
+  std::shared_ptr<const Objects> objects;
+  for (int i = 0; i < 40; ++i) objects = scene.show({{{30 + 2 * i, 80, 24, 60}, kRed}});
+  for (int i = 0; i < 40; ++i)
+    objects = scene.show({{{110 + 2 * i, 80, 24, 60}, kRed}, {{110 - 2 * i, 80, 24, 60}, kBlue}});
+  const auto told = toldOf(*objects);
+  ASSERT_EQ(told.size(), 2u);
+  EXPECT_EQ(told[0]->id, 1u);
+  EXPECT_THAT(told[0]->parents, IsEmpty());
+  EXPECT_EQ(told[1]->parents, std::vector<uint64_t>{1});
+}
+
 TEST(Objects, AHiddenObjectComesBackWithItsNumber) {
   Scene scene;
   std::shared_ptr<const Objects> objects;
