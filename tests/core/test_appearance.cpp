@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "core/appearance.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace rg {
+namespace {
+
+LookCounts plain(uint8_t bin, uint32_t samples = 10) {
+  LookCounts counts;
+  for (auto& band : counts.bins) band[bin] = samples;
+  return counts;
+}
+
+TEST(Appearance, EveryColourHasABin) {
+  for (int red = 0; red < 256; red += 15)
+    for (int green = 0; green < 256; green += 15)
+      for (int blue = 0; blue < 256; blue += 15)
+        ASSERT_LT(colourBin(red, green, blue), kColourBins);
+}
+
+TEST(Appearance, GreysDifferByBrightnessAndColoursByHue) {
+  EXPECT_NE(colourBin(20, 20, 20), colourBin(220, 220, 220));
+  const std::set<int> bins{colourBin(200, 20, 20), colourBin(20, 200, 20), colourBin(20, 20, 200),
+                           colourBin(200, 200, 20), colourBin(90, 90, 90)};
+  EXPECT_EQ(bins.size(), 5u);
+  EXPECT_EQ(colourBin(200, 20, 20), colourBin(100, 10, 10));
+}
+
+TEST(Appearance, ALookIsAllLikeItselfAndNothingLikeAnother) {
+  Look red, blue;
+  learn(red, plain(colourBin(200, 20, 20)));
+  learn(blue, plain(colourBin(20, 20, 200)));
+  EXPECT_EQ(similarity(red, red), kFullMatch);
+  EXPECT_EQ(similarity(red, blue), 0);
+}
+
+TEST(Appearance, TheSameColoursInOtherPlacesAreAnotherLook) {
+  LookCounts redAboveBlue, blueAboveRed;
+  redAboveBlue.bins[0][1] = redAboveBlue.bins[2][9] = 5;
+  blueAboveRed.bins[0][9] = blueAboveRed.bins[2][1] = 5;
+  Look a, b;
+  learn(a, redAboveBlue);
+  learn(b, blueAboveRed);
+  EXPECT_EQ(similarity(a, b), 0);
+}
+
+TEST(Appearance, WithoutCommonBandsNothingIsSaid) {
+  EXPECT_EQ(similarity(Look{}, Look{}), kFullMatch / 2);
+}
+
+TEST(Appearance, ALookFollowsSlowChange) {
+  Look look, now;
+  learn(look, plain(3));
+  learn(now, plain(5));
+  for (int i = 0; i < 60; ++i) learn(look, plain(5));
+  EXPECT_GT(similarity(look, now), kFullMatch * 95 / 100);
+}
+
+TEST(Appearance, AnEmptyFrameTeachesNothing) {
+  Look look;
+  learn(look, LookCounts{});
+  EXPECT_EQ(look.frames, 0u);
+}
+
+}  // namespace
+}  // namespace rg
