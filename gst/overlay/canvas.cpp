@@ -21,8 +21,8 @@ constexpr double kCapitalPx = 21;  // Height of its capitals at scale 1.
 /// Anti-aliased drawing mixes all four channels alike, which is right when the colours are
 /// multiplied by alpha.
 cv::Scalar ink(const Colour& colour, int alpha = kOpaque) {
-  const auto channel = [&](int value) { return static_cast<double>(value * alpha / kOpaque); };
-  return {channel(colour.blue), channel(colour.green), channel(colour.red),
+  const double share = static_cast<double>(alpha) / kOpaque;
+  return {colour.blue * share, colour.green * share, colour.red * share,
           static_cast<double>(alpha)};
 }
 
@@ -74,9 +74,9 @@ void Canvas::box(const Box& whole, const Colour& colour, Stroke stroke) {
                                      Point{box.right() - 1, box.bottom() - 1},
                                      Point{box.x, box.bottom() - 1}};
   if (stroke == Stroke::Solid) {
-    const cv::Rect rect(at(corners[0]), at({box.right(), box.bottom()}));
-    if (style_.rimPx > 0) cv::rectangle(pixels_, rect, rim(), rimmedPx());
-    cv::rectangle(pixels_, rect, ink(colour), style_.linePx);
+    border(inflate(box, style_.borderPx - 1 + style_.rimPx), style_.borderPx + 2 * style_.rimPx,
+           rim());
+    border(inflate(box, style_.borderPx - 1), style_.borderPx, ink(colour));
     return;
   }
   for (size_t i = 0; i < corners.size(); ++i) {
@@ -88,6 +88,18 @@ void Canvas::box(const Box& whole, const Colour& colour, Stroke stroke) {
       cornerMark(next, corners[i], colour);
     }
   }
+}
+
+/// Exactly as thick as asked, inwards from the box: OpenCV's own thick lines are thicker.
+void Canvas::border(const Box& outer, int thickness, const cv::Scalar& ink) {
+  const int upright = std::max(outer.height - 2 * thickness, 0);
+  for (const Box& side : {Box{outer.x, outer.y, outer.width, thickness},
+                          Box{outer.x, outer.bottom() - thickness, outer.width, thickness},
+                          Box{outer.x, outer.y + thickness, thickness, upright},
+                          Box{outer.right() - thickness, outer.y + thickness, thickness, upright}})
+    if (!side.isEmpty())
+      cv::rectangle(pixels_, cv::Rect(at({side.x, side.y}), cv::Size(side.width, side.height)), ink,
+                    cv::FILLED);
 }
 
 void Canvas::cornerMark(Point corner, Point towards, const Colour& colour) {

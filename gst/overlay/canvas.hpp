@@ -40,6 +40,7 @@ class Canvas {
   void line(Point from, Point to, const Colour& colour);
   [[nodiscard]] int rimmedPx() const { return style_.linePx + 2 * style_.rimPx; }
   void dashes(Point from, Point to, const Colour& colour);
+  void border(const Box& outer, int thickness, const cv::Scalar& ink);
   void cornerMark(Point corner, Point towards, const Colour& colour);
   [[nodiscard]] cv::Point at(Point p) const { return {p.x - origin_.x, p.y - origin_.y}; }
 

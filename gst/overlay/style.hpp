@@ -13,6 +13,7 @@ namespace rg::overlay {
 
 struct Style {
   int linePx = 1;        ///< Thickness of lines.
+  int borderPx = 2;      ///< Of boxes.
   int rimPx = 1;         ///< Dark rim on both sides of a line; 0 = none.
   int textPx = 9;        ///< Height of capital letters.
   int spacePx = 2;       ///< Around text, and between dashes.
@@ -20,13 +21,15 @@ struct Style {
 };
 
 /// Lines of 1/320 and letters of 1/45 of the frame's shorter side, times `scale`; never so small
-/// that they vanish. Small frames go without rims and words, which would hide what they point at.
+/// that they vanish: where four pixels share their colour, a border of one pixel may have none.
+/// Small frames go without rims and words, which would hide what they point at.
 [[nodiscard]] inline Style styleFor(Size frame, double scale) {
   const double side = std::min(frame.width, frame.height) * scale;
   Style style;
   style.linePx = std::max(1, static_cast<int>(side / 320 + 0.5));
-  style.textPx = std::max(7, static_cast<int>(side / 45 + 0.5));
+  style.borderPx = std::max(2, style.linePx);
   style.rimPx = side < 240 ? 0 : std::max(1, style.linePx / 2);
+  style.textPx = std::max(7, static_cast<int>(side / 45 + 0.5));
   style.spacePx = std::max(2, style.textPx / 4);
   style.hasWords = side >= 240;
   return style;

@@ -102,6 +102,7 @@ TEST(Figure, LabelsStayInTheFrameAndClearOfEachOther) {
 
 TEST(Style, GrowsWithTheFrame) {
   EXPECT_EQ(styleFor({160, 120}, 1).linePx, 1);
+  EXPECT_EQ(styleFor({160, 120}, 1).borderPx, 2);
   EXPECT_EQ(styleFor({3840, 2160}, 1).linePx, 7);
   EXPECT_EQ(styleFor({3840, 2160}, 1).textPx, 48);
   EXPECT_GE(styleFor({1, 1}, 0.25).textPx, 7);
