@@ -80,13 +80,29 @@ void measureBlock(const SmoothPicture& picture, const ConsensusBackground& model
   std::copy_n(block.second.begin(), count, out.second.row(y) + x);
 }
 
-/// Picks one of the eight neighbours, or the pixel itself at the frame's border.
+constexpr std::array<Point, 8> kNeighbours{
+    {{-1, -1}, {0, -1}, {1, -1}, {-1, 0}, {1, 0}, {-1, 1}, {0, 1}, {1, 1}}};
+
+/// Picks one of the eight neighbours; at the frame's border it may be the pixel itself.
 Point neighbour(Point p, uint32_t choice, Size size) {
-  constexpr std::array<Point, 8> kOffsets{
-      {{-1, -1}, {0, -1}, {1, -1}, {-1, 0}, {1, 0}, {-1, 1}, {0, 1}, {1, 1}}};
-  const Point offset = kOffsets[choice % 8];
+  const Point offset = kNeighbours[choice % 8];
   return {std::clamp(p.x + offset.x, 0, size.width - 1),
           std::clamp(p.y + offset.y, 0, size.height - 1)};
+}
+
+/// The first two samples of a row are the picture itself, the others its eight neighbours in turn.
+void fillSample(const SmoothPicture& picture, int y, int sample, ConsensusBackground& model) {
+  const Size size = picture.size();
+  const Point offset = sample < 2 ? Point{} : kNeighbours[at((sample - 2) % 8)];
+  const int from = std::clamp(y + offset.y, 0, size.height - 1);
+  for (int c = 0; c < model.channels; ++c) {
+    const uint8_t* in = picture.planes[at(c)].row(from);
+    uint8_t* out = model.samples.row(sampleRow(model.channels, y, sample, c));
+    const int begin = offset.x < 0 ? 1 : 0, end = size.width - (offset.x > 0 ? 1 : 0);
+    out[0] = in[0];
+    out[size.width - 1] = in[size.width - 1];
+    if (end > begin) std::copy(in + begin + offset.x, in + end + offset.x, out + begin);
+  }
 }
 
 void remember(const SmoothPicture& picture, Point from, Point to, uint32_t sample,
@@ -162,12 +178,7 @@ void fillFrom(const SmoothPicture& picture, const Executor& executor, ConsensusB
     for (int y = first; y < last; ++y) {
       std::fill_n(model.noise.row(y), size.width, uint8_t{8});
       std::fill_n(model.unrest.row(y), size.width, uint8_t{0});
-      for (uint32_t k = 0; k < kSamples; ++k)
-        for (int x = 0; x < size.width; ++x) {
-          const uint32_t hash = mixHash(static_cast<uint32_t>(x), static_cast<uint32_t>(y), ~k);
-          const Point from = k < 2 ? Point{x, y} : neighbour({x, y}, hash >> 8, size);
-          remember(picture, from, {x, y}, k, model);
-        }
+      for (int k = 0; k < kSamples; ++k) fillSample(picture, y, k, model);
     }
   });
 }
