@@ -71,10 +71,10 @@ Box bestPlace(const Evidence& e, const FitTask& task, FitScratch& s) {
       const Box place{box.x + dx, box.y + dy, box.width, box.height};
       const Box core{place.x + margin, place.y, place.width - 2 * margin, place.height};
       // A shift by half the width costs a quarter of what a full box gains.
-      const int64_t far = int64_t{kForegroundGain} * box.area() *
+      const int64_t far = int64_t{kForegroundGain} *
                           (int64_t{dx} * dx * box.height * box.height +
                            int64_t{dy} * dy * box.width * box.width * 4) /
-                          (box.area() * box.area());
+                          std::max<int64_t>(box.area(), 1);
       const int64_t score = sums.inside(place) + sums.inside(core) - far;
       const std::tuple key{-score, dx * dx + dy * dy, dy, dx};
       if (key < bestKey) {

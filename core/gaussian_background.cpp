@@ -122,8 +122,8 @@ void testGaussian(const Picture& picture, const GaussianBackground& model, int t
 UpdateRate updateRate(int64_t frames) {
   const auto bounded = static_cast<uint64_t>(std::clamp<int64_t>(frames, 2, int64_t{1} << 24));
   // The power of two nearest from below to √2 times the frames.
-  const auto shift = static_cast<int>(std::bit_width(bounded + bounded * 2 / 5)) - 1;
-  const int usable = std::clamp(shift, 1, 8);
+  const int shift = std::max(1, static_cast<int>(std::bit_width(bounded + bounded * 2 / 5)) - 1);
+  const int usable = std::min(shift, 8);
   return {usable, uint32_t{1} << (shift - usable)};
 }
 

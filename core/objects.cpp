@@ -278,6 +278,8 @@ Result<std::shared_ptr<const Objects>> CpuObjectStage::process(std::shared_ptr<c
 
 }  // namespace
 
+// One signature for the factories of all stages; this one needs no executor.
+// NOLINTNEXTLINE(performance-unnecessary-value-param)
 std::unique_ptr<ObjectStage> makeObjectStage(Context) {
   return std::make_unique<CpuObjectStage>();
 }

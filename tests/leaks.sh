@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: LGPL-2.1-or-later
-# Runs the demo's pipeline under GStreamer's leaks tracer; a leak or a warning ends it with an error.
+# Runs the demo's pipeline under GStreamer's leaks tracer; a leak or a warning is an error.
 #
 # usage: leaks.sh VIDEO [FRAMES]                (default 60 frames; BUILD_DIR as for run.sh)
 set -euo pipefail
