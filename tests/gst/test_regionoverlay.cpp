@@ -42,8 +42,8 @@ uint8_t pixel(GstBuffer* buffer, const Caps& caps, int x, int y, int component =
   GstVideoFrame frame;
   if (!gst_video_frame_map(&frame, &info, buffer, GST_MAP_READ)) return 0;
   const auto* data = static_cast<const uint8_t*>(GST_VIDEO_FRAME_COMP_DATA(&frame, component));
-  const int shiftX = GST_VIDEO_FORMAT_INFO_W_SUB(info.finfo, component);
-  const int shiftY = GST_VIDEO_FORMAT_INFO_H_SUB(info.finfo, component);
+  const auto shiftX = static_cast<int>(GST_VIDEO_FORMAT_INFO_W_SUB(info.finfo, component));
+  const auto shiftY = static_cast<int>(GST_VIDEO_FORMAT_INFO_H_SUB(info.finfo, component));
   const uint8_t value = data[(y >> shiftY) * GST_VIDEO_FRAME_COMP_STRIDE(&frame, component) +
                              (x >> shiftX) * GST_VIDEO_FRAME_COMP_PSTRIDE(&frame, component)];
   gst_video_frame_unmap(&frame);
