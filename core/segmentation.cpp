@@ -16,7 +16,6 @@ namespace {
 constexpr int kMostRegions = 65535;
 constexpr int64_t kDefaultAreaShare = 1200;  // Least area of a region, as a share of the frame.
 constexpr int64_t kDefaultLeastArea = 32;
-constexpr int kDefaultSimilarity = 2;
 
 constexpr uint32_t leastArea(const SegmentationParams& params, Size size) {
   if (params.minAreaPx > 0) return static_cast<uint32_t>(params.minAreaPx);
@@ -84,13 +83,12 @@ Result<std::shared_ptr<const Labels>> CpuSegmentation::process(
   labels->status = foreground ? foreground->status : Status::Ok;
   labels->scope = params.scope;
   labels->ids.resize(labels->size);
-  const int similarity = params.similarity > 0 ? params.similarity : kDefaultSimilarity;
   const uint32_t minArea = leastArea(params, labels->size);
   const auto maxRegions = static_cast<uint32_t>(std::clamp(params.maxRegions, 1, kMostRegions));
 
   ImageView<const uint8_t> mask;
   if (wantsForeground) mask = foreground->mask;
-  links_.build(*picture, mask, {similarity, minArea > 1}, *context_.cpu);
+  links_.build(*picture, mask, {params.similarity, minArea > 1}, *context_.cpu);
   runs_.build(links_, runLimits(labels->size), *context_.cpu);
   collectRegions(*picture);
   collectBorders();

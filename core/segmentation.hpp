@@ -43,8 +43,8 @@ struct Labels {
 
 struct SegmentationParams {
   Scope scope = Scope::Frame;
-  int similarity = 0;     ///< Largest step between neighbours in one region, in grey levels of the
-                          ///< smoothed picture; 0 = by default. 0 … 254.
+  int similarity = 2;     ///< Largest step between neighbours in one region, in grey levels of a
+                          ///< channel of the smoothed picture. 0 … 254.
   int minAreaPx = 0;      ///< Smaller regions are absorbed by the neighbour most like them; 0 = by
                           ///< the frame's size. 1 also leaves single pixels alone.
   int maxRegions = 1024;  ///< 1 … 65535, never exceeded.

@@ -13,8 +13,7 @@
  */
 #include "core/background.hpp"
 #include "gst/elements.hpp"
-#include "gst/support/frame_loader.hpp"
-#include "gst/support/stage_filter.hpp"
+#include "gst/support/pixel_filter.hpp"
 
 #include <array>
 
@@ -33,9 +32,7 @@ GType methodType() {
   return type;
 }
 
-struct Settings : StageSettings, BackgroundParams {
-  guint64 badBuffers = 0;
-};
+struct Settings : PixelSettings, BackgroundParams {};
 
 constexpr std::array kProperties{
     enumProperty<Settings, &Settings::method>("method", "How the background is modelled",
@@ -62,54 +59,24 @@ constexpr std::array kProperties{
         "Seconds after which a thing that stopped moving becomes part of the background", 0.1,
         86400),
     threadsProperty<Settings>(),
-    property<Settings, &Settings::badBuffers>(
-        "bad-buffers",
-        "Frames passed on unread, because their memory is not what their caps or "
-        "GstVideoMeta promise",
-        0, 0, Mutable::Never),
+    badBuffersProperty<Settings>(),
 };
 
-class BgRemove final : public StageFilter {
+class BgRemove final : public PixelFilter<Settings, BackgroundStage> {
  public:
-  using StageFilter::StageFilter;
-
-  void* settings() override { return &settings_; }
-
-  bool start() override {
-    const Context context = makeContext(snapshot(settings_).threads);
-    executor_ = context.cpu;
-    stage_ = makeBackgroundStage(context);
-    return true;
-  }
-  void stop() override { stage_.reset(); }
-  void reset(Reset what) override {
-    if (stage_) stage_->reset(what);
-  }
+  explicit BgRemove(GstBaseTransform* element) : PixelFilter(element, makeBackgroundStage) {}
 
   GstFlowReturn process(const FilterFrame& frame) override {
     if (!frame.isUsable) {
       attachSkipped<Foreground>(frame);
-      return GST_FLOW_OK;
-    }
-    auto picture = loader_.load(frame.buffer, frame.info, *executor_);
-    if (!picture) {
-      {
-        const std::lock_guard lock(settingsMutex());
-        ++settings_.badBuffers;
-      }
+    } else if (auto picture = load(frame)) {
+      attach<Foreground>(frame,
+                         stage().process(*std::move(picture), currentSettings(), frame.time));
+    } else {
       attach<Foreground>(frame, picture.error());
-      return GST_FLOW_OK;
     }
-    attach<Foreground>(frame,
-                       stage_->process(*std::move(picture), snapshot(settings_), frame.time));
     return GST_FLOW_OK;
   }
-
- private:
-  Settings settings_;
-  std::shared_ptr<const Executor> executor_;
-  std::unique_ptr<BackgroundStage> stage_;
-  FrameLoader loader_;
 };
 
 const Settings kDefaults;

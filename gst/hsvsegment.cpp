@@ -13,8 +13,7 @@
  */
 #include "core/segmentation.hpp"
 #include "gst/elements.hpp"
-#include "gst/support/frame_loader.hpp"
-#include "gst/support/stage_filter.hpp"
+#include "gst/support/pixel_filter.hpp"
 
 #include <array>
 
@@ -36,59 +35,42 @@ GType scopeType() {
   return type;
 }
 
-struct Settings : StageSettings, SegmentationParams {
+struct Settings : PixelSettings, SegmentationParams {
   ScopeChoice scopeChoice = ScopeChoice::Auto;
-  guint64 badBuffers = 0;
 };
 
 constexpr std::array kProperties{
     enumProperty<Settings, &Settings::scopeChoice>(
         "scope", "Which pixels are divided into regions; auto is decided on the first frame",
         scopeType),
-    property<Settings, &Settings::similarity>("similarity",
-                                              "Largest difference between neighbouring pixels of "
-                                              "one region, in grey levels of a channel. "
-                                              "Lower gives more and smaller regions",
-                                              0, 255),
-    property<Settings, &Settings::minAreaPx>("min-area",
-                                             "Regions with fewer pixels are absorbed by the "
-                                             "neighbour most like them; 0 = by the size of "
-                                             "the frame",
-                                             0, 1 << 24),
+    property<Settings, &Settings::similarity>(
+        "similarity",
+        "Largest difference between neighbouring pixels of one region, in grey levels of a channel "
+        "of the smoothed picture. Lower gives more and smaller regions",
+        0, 254),
+    property<Settings, &Settings::minAreaPx>(
+        "min-area",
+        "Regions with fewer pixels are absorbed by the neighbour most like them; 0 = 1/1200 of the "
+        "frame's pixels, at least 32",
+        0, 1 << 24),
     property<Settings, &Settings::maxRegions>(
         "max-regions", "Never more regions than this; the smallest are absorbed first", 1, 65535),
     threadsProperty<Settings>(),
-    property<Settings, &Settings::badBuffers>(
-        "bad-buffers",
-        "Frames passed on unread, because their memory is not what their caps or "
-        "GstVideoMeta promise",
-        0, 0, Mutable::Never),
+    badBuffersProperty<Settings>(),
 };
 
-class HsvSegment final : public StageFilter {
+class HsvSegment final : public PixelFilter<Settings, SegmentationStage> {
  public:
-  using StageFilter::StageFilter;
-
-  void* settings() override { return &settings_; }
-
-  bool start() override {
-    const Context context = makeContext(snapshot(settings_).threads);
-    executor_ = context.cpu;
-    stage_ = makeSegmentationStage(context);
-    return true;
-  }
-  void stop() override { stage_.reset(); }
-  void reset(Reset what) override {
-    if (stage_) stage_->reset(what);
-  }
+  explicit HsvSegment(GstBaseTransform* element) : PixelFilter(element, makeSegmentationStage) {}
 
   GstFlowReturn process(const FilterFrame& frame) override {
-    Settings settings = snapshot(settings_);
+    Settings settings = currentSettings();
     if (frame.isFirst)
       autoScope_ = findResult<Foreground>(frame.buffer) ? Scope::Foreground : Scope::Frame;
     settings.scope = scopeOf(settings.scopeChoice);
-    return settings.scope == Scope::Foreground ? divideForeground(frame, settings)
-                                               : divideFrame(frame, settings);
+    if (settings.scope == Scope::Foreground) return divideForeground(frame, settings);
+    divideFrame(frame, settings);
+    return GST_FLOW_OK;
   }
 
  private:
@@ -107,45 +89,32 @@ class HsvSegment final : public StageFilter {
   GstFlowReturn divideForeground(const FilterFrame& frame, const Settings& settings) {
     auto upstream = require<Foreground>(frame, "bgremove");
     if (upstream.flow != GST_FLOW_OK) return upstream.flow;
-    if (!upstream.result || upstream.result->status == Status::Skipped) {
+    if (upstream.result && upstream.result->picture)
+      divide(frame, upstream.result->picture, upstream.result, settings);
+    else
       attachSkipped<Labels>(frame);
-      return GST_FLOW_OK;
-    }
-    auto picture = upstream.result->picture;
-    attach<Labels>(frame,
-                   stage_->process(std::move(picture), std::move(upstream.result), settings));
     return GST_FLOW_OK;
   }
 
-  GstFlowReturn divideFrame(const FilterFrame& frame, const Settings& settings) {
+  void divideFrame(const FilterFrame& frame, const Settings& settings) {
+    const auto foreground = findResult<Foreground>(frame.buffer);
     if (!frame.isUsable) {
       attachSkipped<Labels>(frame);
-      return GST_FLOW_OK;
-    }
-    auto foreground = findResult<Foreground>(frame.buffer);
-    if (foreground && foreground->picture) {
-      auto shared = foreground->picture;
-      attach<Labels>(frame, stage_->process(std::move(shared), std::move(foreground), settings));
-      return GST_FLOW_OK;
-    }
-    auto picture = loader_.load(frame.buffer, frame.info, *executor_);
-    if (!picture) {
-      {
-        const std::lock_guard lock(settingsMutex());
-        ++settings_.badBuffers;
-      }
+    } else if (foreground && foreground->picture) {
+      divide(frame, foreground->picture, foreground, settings);
+    } else if (auto picture = load(frame)) {
+      divide(frame, *picture, nullptr, settings);
+    } else {
       attach<Labels>(frame, picture.error());
-      return GST_FLOW_OK;
     }
-    attach<Labels>(frame, stage_->process(*std::move(picture), nullptr, settings));
-    return GST_FLOW_OK;
   }
 
-  Settings settings_;
+  void divide(const FilterFrame& frame, std::shared_ptr<const Picture> picture,
+              std::shared_ptr<const Foreground> foreground, const Settings& settings) {
+    attach<Labels>(frame, stage().process(std::move(picture), std::move(foreground), settings));
+  }
+
   Scope autoScope_ = Scope::Frame;
-  std::shared_ptr<const Executor> executor_;
-  std::unique_ptr<SegmentationStage> stage_;
-  FrameLoader loader_;
 };
 
 const Settings kDefaults;

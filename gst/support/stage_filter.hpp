@@ -46,7 +46,6 @@ class StageFilter : public Filter {
   /// element to add; going missing later gives one warning.
   template <class Payload>
   Upstream<Payload> require(const FilterFrame& frame, const char* producer) {
-    if (frame.isFirst) hasWarned_ = false;
     Upstream<Payload> upstream{findResult<Payload>(frame.buffer)};
     if (!upstream.result) upstream.flow = reportMissing(frame, producer);
     return upstream;
@@ -79,35 +78,61 @@ class StageFilter : public Filter {
   void warnOnce(const std::string& text) {
     if (!std::exchange(hasWarned_, true)) postWarning(text);
   }
+  void forgetWarnings() { hasWarned_ = false; }
 
  private:
-  bool hasWarned_ = false;  ///< Since the caps: a broken stream must not flood the bus.
+  bool hasWarned_ = false;  ///< In this stream: a broken stream must not flood the bus.
 };
 
-/// A stage element whose whole input is the result of the stage before.
-template <class Settings, class Stage, class In>
-class ChainedFilter : public StageFilter {
+/// A stage element: its settings and the stage that is made when it starts.
+template <class Settings, class Stage>
+class StageOwner : public StageFilter {
  public:
   using Factory = std::unique_ptr<Stage> (*)(Context);
 
-  ChainedFilter(GstBaseTransform* element, Factory makeStage, const char* producer)
-      : StageFilter(element), makeStage_(makeStage), producer_(producer) {}
+  StageOwner(GstBaseTransform* element, Factory makeStage)
+      : StageFilter(element), makeStage_(makeStage) {}
 
   void* settings() override { return &settings_; }
 
   bool start() override {
-    stage_ = makeStage_(makeContext(snapshot(settings_).threads));
+    const Context context = makeContext(currentSettings().threads);
+    executor_ = context.cpu;
+    stage_ = makeStage_(context);
     return true;
   }
   void stop() override { stage_.reset(); }
   void reset(Reset what) override {
+    if (what == Reset::Stream) forgetWarnings();
     if (stage_) stage_->reset(what);
   }
 
+ protected:
+  [[nodiscard]] Settings currentSettings() { return snapshot(settings_); }
+  [[nodiscard]] Stage& stage() { return *stage_; }
+  [[nodiscard]] const Executor& executor() const { return *executor_; }
+
+  Settings settings_;
+
+ private:
+  const Factory makeStage_;
+  std::shared_ptr<const Executor> executor_;
+  std::unique_ptr<Stage> stage_;
+};
+
+/// A stage element whose whole input is the result of the stage before.
+template <class Settings, class Stage, class In>
+class ChainedFilter : public StageOwner<Settings, Stage> {
+ public:
+  using Base = StageOwner<Settings, Stage>;
+
+  ChainedFilter(GstBaseTransform* element, typename Base::Factory makeStage, const char* producer)
+      : Base(element, makeStage), producer_(producer) {}
+
   GstFlowReturn process(const FilterFrame& frame) final {
-    auto upstream = require<In>(frame, producer_);
+    auto upstream = this->template require<In>(frame, producer_);
     if (upstream.flow != GST_FLOW_OK) return upstream.flow;
-    handle(frame, std::move(upstream.result), snapshot(settings_));
+    handle(frame, std::move(upstream.result), this->currentSettings());
     return GST_FLOW_OK;
   }
 
@@ -116,13 +141,8 @@ class ChainedFilter : public StageFilter {
   virtual void handle(const FilterFrame& frame, std::shared_ptr<const In> input,
                       const Settings& settings) = 0;
 
-  [[nodiscard]] Stage& stage() { return *stage_; }
-
  private:
-  const Factory makeStage_;
   const char* const producer_;
-  Settings settings_;
-  std::unique_ptr<Stage> stage_;
 };
 
 }  // namespace rg

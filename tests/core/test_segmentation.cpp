@@ -13,7 +13,7 @@ namespace {
 
 using namespace scenes;
 
-SegmentationParams withAreas(int minAreaPx, int maxRegions = 65535, int similarity = 0) {
+SegmentationParams withAreas(int minAreaPx, int maxRegions = 65535, int similarity = 2) {
   return {Scope::Frame, similarity, minAreaPx, maxRegions};
 }
 
