@@ -13,6 +13,12 @@ Chain::Chain(const std::string& launchLine, const Caps& caps)
   setCaps(caps);
 }
 
+/// Messages that nobody took hold their element, which holds the bus: both would stay for ever.
+Chain::~Chain() {
+  gst_element_set_bus(harness_->element, nullptr);
+  gst_bus_set_flushing(bus_.get(), TRUE);
+}
+
 GstElement* Chain::element(const char* factory) const {
   return gst_harness_find_element(harness_.get(), factory);
 }
@@ -72,7 +78,7 @@ BufferPtr paint(const Caps& caps, int index, const Painter& painter) {
 Painter square(int x, int y, int side) {
   return [=](int px, int py) -> uint8_t {
     const bool isInside = px >= x && px < x + side && py >= y && py < y + side;
-    return isInside ? static_cast<uint8_t>(200 + (px - x + 2 * (py - y)) % 16) : 60;
+    return isInside ? static_cast<uint8_t>(200 + (px - x + 2 * (py - y)) % 16) : uint8_t{60};
   };
 }
 

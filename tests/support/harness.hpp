@@ -51,6 +51,9 @@ struct Caps {
 class Chain {
  public:
   explicit Chain(const std::string& launchLine, const Caps& caps = {});
+  ~Chain();
+  Chain(const Chain&) = delete;
+  Chain& operator=(const Chain&) = delete;
 
   [[nodiscard]] GstHarness* harness() const { return harness_.get(); }
   /// An element of the chain by its factory's name.
