@@ -190,10 +190,10 @@ void improve(std::span<const WeightedArc> arcs, MergeScratch& s, std::vector<uin
 }  // namespace
 
 void weighArcs(const Motion& motion, std::span<const uint32_t> predicted,
-               const MergeWeights& weights, std::vector<WeightedArc>& arcs) {
+               const MergeWeights& weights, std::vector<ArcEnergy>& energies) {
   const Graph& graph = *motion.graph;
   const int64_t threshold2 = int64_t{weights.motionThreshold} * weights.motionThreshold;
-  arcs.clear();
+  energies.clear();
   for (const Arc& arc : graph.arcs) {
     const uint32_t s = arc.a - 1u, t = arc.b - 1u;
     const RegionMotion &v = motion.regions[s], &u = motion.regions[t];
@@ -205,11 +205,18 @@ void weighArcs(const Motion& motion, std::span<const uint32_t> predicted,
     const int64_t pull = std::min(v.reliability, u.reliability) * rootArea;
     const bool isPredicted =
         !predicted.empty() && predicted[s] != 0 && predicted[s] == predicted[t];
-    const int64_t weight = int64_t{weights.border} * arc.borderPx + weights.arc +
-                           (isPredicted ? weights.prediction * rootArea : 0) -
-                           weights.motion * (pull * excess / threshold2) / kFullReliability;
-    arcs.push_back({s, t, weight});
+    energies.push_back({.motion = weights.motion * (pull * excess / threshold2) / kFullReliability,
+                        .border = int64_t{weights.border} * arc.borderPx,
+                        .arc = weights.arc,
+                        .prediction = isPredicted ? weights.prediction * rootArea : 0});
   }
+}
+
+void listArcs(const Graph& graph, std::span<const ArcEnergy> energies,
+              std::vector<WeightedArc>& arcs) {
+  arcs.clear();
+  for (size_t i = 0; i < graph.arcs.size(); ++i)
+    arcs.push_back({graph.arcs[i].a - 1u, graph.arcs[i].b - 1u, energies[i].weight()});
 }
 
 int64_t keptWeight(std::span<const WeightedArc> arcs, std::span<const uint32_t> groupOf) {

@@ -13,6 +13,7 @@
 // first regions.
 #pragma once
 
+#include "core/arc_energy.hpp"
 #include "core/region_motion.hpp"
 
 #include <cstdint>
@@ -74,10 +75,14 @@ struct Group {
   int64_t weight = 0;  ///< Sum of area x reliability.
 };
 
-/// The graph's arcs with their weights. predicted[i]: what object region i is expected to belong
-/// to, 0 = none; an empty span = nothing is expected.
+/// What each of the graph's arcs adds to U. predicted[i]: what object region i is expected to
+/// belong to, 0 = none; an empty span = nothing is expected.
 void weighArcs(const Motion& motion, std::span<const uint32_t> predicted,
-               const MergeWeights& weights, std::vector<WeightedArc>& arcs);
+               const MergeWeights& weights, std::vector<ArcEnergy>& energies);
+
+/// The arcs of the graph as minimise() takes them; `energies` as weighArcs() made them.
+void listArcs(const Graph& graph, std::span<const ArcEnergy> energies,
+              std::vector<WeightedArc>& arcs);
 
 /// Sum of the weights of the arcs inside groups: what minimising U maximises.
 [[nodiscard]] int64_t keptWeight(std::span<const WeightedArc> arcs,

@@ -5,6 +5,7 @@
 #include "core/mrf_merge.hpp"
 #include "core/pixel.hpp"
 #include "core/pool.hpp"
+#include "core/region_owners.hpp"
 #include "core/tracker.hpp"
 
 #include <algorithm>
@@ -25,6 +26,7 @@ MergeWeights weightsOf(const ObjectParams& params) {
   weights.motion = q8(params.motionWeight);
   weights.border = q8(params.borderWeight);
   weights.arc = q8(params.arcWeight);
+  weights.prediction = q8(params.predictionWeight);
   weights.motionThreshold =
       std::max(1, static_cast<int32_t>(
                       std::lround(std::clamp(params.motionThresholdPx, 0.0, 64.0) * kMotionUnit)));
@@ -39,21 +41,24 @@ class CpuObjectStage final : public ObjectStage {
   void reset(Reset what) override;
 
  private:
-  void mergeRegions(const Motion& motion, const ObjectParams& params, Objects& objects);
-  void expectLabels(const Graph& graph);
+  void mergeRegions(const Motion& motion, const ObjectParams& params, int64_t stepNs,
+                    Objects& objects);
+  void expectLabels(const Graph& graph, int64_t stepNs, Objects& objects);
+  void startGroups(std::vector<uint32_t>& groupOf) const;
   void markBackground(const Motion& motion, const ObjectParams& params, Objects& objects);
   void paint(const Graph& graph, Objects& objects);
   void describe(const Graph& graph, bool hasTime, Objects& objects);
   void nameRegions(const Graph& graph, Objects& objects);
-  [[nodiscard]] uint16_t labelAt(const Labels& labels, uint32_t cell) const;
   int64_t stepTo(FrameTime time);
 
   Tracker tracker_;
   MergeScratch mergeScratch_;
   VoteScratch voteScratch_;
   std::vector<WeightedArc> arcs_;
-  std::vector<uint32_t> groupOf_;
-  std::vector<uint32_t> expected_;  ///< Of each region the object it is predicted to be, or 0.
+  std::vector<uint32_t> expected_;  ///< Of each region 1 + the track it is predicted to be, or 0.
+  std::vector<uint32_t> regionOwner_;  ///< Of each region 1 + the track that it is, or 0.
+  std::vector<Point> shifts_;          ///< Of each track, pixels.
+  RegionOwnerScratch ownerScratch_;
   std::vector<Group> groups_;
   std::vector<uint8_t> isBackground_;
   Evidence evidence_;
@@ -62,8 +67,6 @@ class CpuObjectStage final : public ObjectStage {
     Point first;
   };
   std::vector<Sums> sums_;
-  std::vector<uint32_t> firstCell_, cells_;  ///< The cells of each track, one after another.
-  std::vector<uint32_t> votes_, mostVotes_;  ///< Of each region.
   Pool<Objects> pool_;
   FrameTime last_;
   bool hasLast_ = false;
@@ -86,31 +89,37 @@ void CpuObjectStage::reset(Reset what) {
   hasLast_ = false;
 }
 
-/// The object whose predicted box holds a region's centre: the nearest one by foot, smaller id.
-void CpuObjectStage::expectLabels(const Graph& graph) {
+/// The objects of the previous frame, moved as they are expected to, name the regions of this one.
+void CpuObjectStage::expectLabels(const Graph& graph, int64_t stepNs, Objects& objects) {
+  const std::vector<Track>& tracks = tracker_.tracks();
   expected_.assign(graph.regions.size(), 0);
-  for (size_t r = 0; r < graph.regions.size(); ++r) {
-    const Region& region = graph.regions[r];
-    const Point centre{region.centroidX >> 8, region.centroidY >> 8};
-    int lowest = -1;
-    for (size_t t = 0; t < tracker_.tracks().size(); ++t) {
-      const Track& track = tracker_.tracks()[t];
-      const Box box = track.box();
-      if (!track.isSeen || !box.contains(centre) || box.bottom() <= lowest) continue;
-      lowest = box.bottom();
-      expected_[r] = static_cast<uint32_t>(t + 1);
-    }
-  }
+  objects.regionExpected.assign(graph.regions.size(), 0);
+  if (tracker_.owner().empty() || evidence_.frame != graph.size) return;
+  shifts_.clear();
+  for (const Track& track : tracks) shifts_.push_back(tracker_.expectedShift(track, stepNs));
+  findRegionOwners(*graph.labels, evidence_, tracker_.owner(), shifts_, ownerScratch_, expected_);
+  for (size_t r = 0; r < expected_.size(); ++r)
+    if (expected_[r] != 0) objects.regionExpected[r] = tracks[expected_[r] - 1].id;
 }
 
-void CpuObjectStage::mergeRegions(const Motion& motion, const ObjectParams& params,
+/// Regions that are expected to be one object start as one group, all others alone.
+void CpuObjectStage::startGroups(std::vector<uint32_t>& groupOf) const {
+  const auto tracks = static_cast<uint32_t>(tracker_.tracks().size());
+  groupOf.resize(expected_.size());
+  for (uint32_t r = 0; r < groupOf.size(); ++r)
+    groupOf[r] = expected_[r] != 0 ? expected_[r] : tracks + 1 + r;
+}
+
+void CpuObjectStage::mergeRegions(const Motion& motion, const ObjectParams& params, int64_t stepNs,
                                   Objects& objects) {
   const Graph& graph = *motion.graph;
-  expectLabels(graph);
-  weighArcs(motion, expected_, weightsOf(params), arcs_);
-  groupOf_.clear();
-  minimise(static_cast<uint32_t>(graph.regions.size()), arcs_, mergeScratch_, groupOf_);
-  describeGroups(motion, groupOf_, groups_);
+  std::vector<uint32_t>& groupOf = objects.regionGroup;
+  expectLabels(graph, stepNs, objects);
+  weighArcs(motion, expected_, weightsOf(params), objects.arcs);
+  listArcs(graph, objects.arcs, arcs_);
+  startGroups(groupOf);
+  minimise(static_cast<uint32_t>(graph.regions.size()), arcs_, mergeScratch_, groupOf);
+  describeGroups(motion, groupOf, groups_);
   markBackground(motion, params, objects);
 }
 
@@ -149,7 +158,7 @@ void CpuObjectStage::paint(const Graph& graph, Objects& objects) {
     const uint16_t* groups = evidence_.group.data() + evidence_.at(0, y / evidence_.stepPx);
     for (int x = 0; x < graph.size.width; ++x) {
       slots[x] = 0;
-      if (ids[x] == kNoRegion || isBackground_[groupOf_[ids[x] - 1u]]) continue;
+      if (ids[x] == kNoRegion || isBackground_[objects.regionGroup[ids[x] - 1u]]) continue;
       const int cell = x / evidence_.stepPx;
       if (groups[cell] == 0 || owners[cell] == 0) continue;
       slots[x] = owners[cell];
@@ -202,39 +211,13 @@ void CpuObjectStage::describe(const Graph& graph, bool hasTime, Objects& objects
 
 /// A region is of the object that owns most of its cells.
 void CpuObjectStage::nameRegions(const Graph& graph, Objects& objects) {
-  const std::vector<uint16_t>& owner = tracker_.owner();
-  const std::vector<Track>& tracks = tracker_.tracks();
-  firstCell_.assign(tracks.size() + 2, 0);
-  for (const uint16_t track : owner) ++firstCell_[track + 1u];
-  std::partial_sum(firstCell_.begin(), firstCell_.end(), firstCell_.begin());
-  cells_.resize(owner.size());
-  for (size_t cell = 0; cell < owner.size(); ++cell)
-    cells_[firstCell_[owner[cell]]++] = static_cast<uint32_t>(cell);
-
-  votes_.assign(graph.regions.size(), 0);
-  mostVotes_.assign(graph.regions.size(), 0);
+  shifts_.assign(tracker_.tracks().size(), {});
+  regionOwner_.resize(graph.regions.size());
+  findRegionOwners(*graph.labels, evidence_, tracker_.owner(), shifts_, ownerScratch_,
+                   regionOwner_);
   objects.regionObject.assign(graph.regions.size(), 0);
-  for (size_t t = 0; t < tracks.size(); ++t) {
-    const auto forCells = [&](auto&& visit) {
-      for (uint32_t i = firstCell_[t]; i < firstCell_[t + 1]; ++i)
-        if (const uint16_t label = labelAt(*graph.labels, cells_[i])) visit(label - 1u);
-    };
-    forCells([&](uint32_t region) { ++votes_[region]; });
-    forCells([&](uint32_t region) {
-      if (votes_[region] > mostVotes_[region]) {
-        mostVotes_[region] = votes_[region];
-        objects.regionObject[region] = tracks[t].id;
-      }
-      votes_[region] = 0;
-    });
-  }
-}
-
-uint16_t CpuObjectStage::labelAt(const Labels& labels, uint32_t cell) const {
-  const auto width = static_cast<uint32_t>(evidence_.grid.width);
-  const Point p =
-      evidence_.middleOf(static_cast<int>(cell % width), static_cast<int>(cell / width));
-  return labels.ids.at(p.x, p.y);
+  for (size_t r = 0; r < regionOwner_.size(); ++r)
+    if (regionOwner_[r] != 0) objects.regionObject[r] = tracker_.tracks()[regionOwner_[r] - 1].id;
 }
 
 Result<std::shared_ptr<const Objects>> CpuObjectStage::process(std::shared_ptr<const Motion> motion,
@@ -245,6 +228,9 @@ Result<std::shared_ptr<const Objects>> CpuObjectStage::process(std::shared_ptr<c
   objects->objects.clear();
   objects->events.clear();
   objects->regionObject.clear();
+  objects->regionExpected.clear();
+  objects->regionGroup.clear();
+  objects->arcs.clear();
   objects->cameraDx = objects->cameraDy = 0;
   const TrackerParams tracking{
       static_cast<int64_t>(std::clamp(params.maxLostTimeS, 0.0, 3600.0) * 1e9),
@@ -263,8 +249,8 @@ Result<std::shared_ptr<const Objects>> CpuObjectStage::process(std::shared_ptr<c
     objects->slots.fill(0);
     return std::shared_ptr<const Objects>(objects);
   }
-  mergeRegions(*motion, params, *objects);
-  gather(*graph, groupOf_, isBackground_, evidence_);
+  mergeRegions(*motion, params, stepNs, *objects);
+  gather(*graph, objects->regionGroup, isBackground_, evidence_);
   tracker_.update(evidence_, groups_, stepNs, tracking);
   paint(*graph, *objects);
   describe(*graph, time.isKnown, *objects);

@@ -6,6 +6,7 @@
 // never used again within a stream.
 #pragma once
 
+#include "core/arc_energy.hpp"
 #include "core/geometry.hpp"
 #include "core/region_motion.hpp"
 #include "core/result.hpp"
@@ -58,9 +59,14 @@ struct Objects {
   Status status = Status::Skipped;
   std::shared_ptr<const Motion> motion;
   std::vector<Object> objects;
-  Image<uint16_t> slots;               ///< For each pixel: 1 + index into `objects`, 0 = none.
-  std::vector<uint64_t> regionObject;  ///< For each region the id of its object, 0 = none.
-  int32_t cameraDx = 0;  ///< Motion of the background since the previous frame, in 1/16 px.
+  Image<uint16_t> slots;                 ///< For each pixel: 1 + index into `objects`, 0 = none.
+  std::vector<uint64_t> regionObject;    ///< For each region the id of its object, 0 = none.
+  std::vector<uint64_t> regionExpected;  ///< For each region the object that it was predicted to
+                                         ///< belong to, 0 = none.
+  std::vector<uint32_t> regionGroup;     ///< For each region the group that it was merged into.
+  std::vector<ArcEnergy> arcs;  ///< Parallel to the graph's arcs; kept where both ends are in one
+                                ///< group, broken elsewhere.
+  int32_t cameraDx = 0;         ///< Motion of the background since the previous frame, in 1/16 px.
   int32_t cameraDy = 0;
   std::vector<Event> events;
 
@@ -73,6 +79,8 @@ struct ObjectParams {
   double motionWeight = 1.0;       ///< Of U1: what keeping regions together costs that move apart.
   double borderWeight = 1.0;       ///< Of U2: what a pixel of border between two groups costs.
   double arcWeight = 1.0;          ///< Of U3: what a broken arc costs.
+  double predictionWeight = 2.0;   ///< What it costs to part regions that were expected to be one
+                                   ///< object.
   double motionThresholdPx = 1.0;  ///< Speeds that differ by less per frame count as alike.
   double maxLostTimeS = 2.0;       ///< An object that is not seen for longer ends.
   double minObjectArea = 0.0;      ///< Share of the frame, in percent; 0 = learnt from the scene.

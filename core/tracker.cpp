@@ -50,10 +50,25 @@ void Tracker::reset(bool isNewScene) {
   if (isNewScene) scale_.reset({});
 }
 
+/// In 1/16 px.
+Point Tracker::stepOf(const Track& track, int64_t stepNs) {
+  const auto step = [&](int32_t speed) {
+    return toInt(int64_t{speed} * (stepNs / 1000) / kSecondUs);
+  };
+  return {step(track.speedX), step(track.speedY)};
+}
+
+Point Tracker::expectedShift(const Track& track, int64_t stepNs) {
+  const Point step = stepOf(track, stepNs);
+  const auto px = [](int v) { return static_cast<int>(divideRounded(v, kUnit)); };
+  return {px(step.x), px(step.y)};
+}
+
 void Tracker::advance(Track& track, int64_t stepNs) const {
   const Extent before = scale_.at(track.foot / kUnit);
-  track.x = toInt(track.x + int64_t{track.speedX} * (stepNs / 1000) / kSecondUs);
-  track.foot = toInt(track.foot + int64_t{track.speedY} * (stepNs / 1000) / kSecondUs);
+  const Point step = stepOf(track, stepNs);
+  track.x = toInt(int64_t{track.x} + step.x);
+  track.foot = toInt(int64_t{track.foot} + step.y);
   track.ageNs += stepNs;
   ++track.ageFrames;
   if (before.height == 0) return;

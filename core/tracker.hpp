@@ -111,10 +111,13 @@ class Tracker {
   /// Of each cell of the evidence: 1 + index of the track, 0 = none.
   [[nodiscard]] const std::vector<uint16_t>& owner() const { return owner_; }
   [[nodiscard]] const std::vector<Event>& events() const { return events_; }
+  /// How far a track will move in the next `stepNs`, in pixels.
+  [[nodiscard]] static Point expectedShift(const Track& track, int64_t stepNs);
   void remember(size_t index, Colour colour) { tracks_[index].colour = colour; }
   [[nodiscard]] const SceneScale& scale() const { return scale_; }
 
  private:
+  [[nodiscard]] static Point stepOf(const Track& track, int64_t stepNs);
   void advance(Track& track, int64_t stepNs) const;
   void lookForTracks(const Evidence& evidence);
   void giveGroups(const Evidence& evidence, std::span<const Group> groups);

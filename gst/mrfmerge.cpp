@@ -44,6 +44,11 @@ constexpr std::array kProperties{
     property<Settings, &Settings::arcWeight>(
         "arc-weight", "Weight of U3: what each pair of touching regions in different groups costs",
         0, 1000),
+    property<Settings, &Settings::predictionWeight>(
+        "prediction-weight",
+        "What it costs to part regions that were expected to be one object, by where that was in "
+        "the previous frame and how it moved. Higher keeps objects whole",
+        0, 1000),
     property<Settings, &Settings::motionThresholdPx>(
         "motion-threshold",
         "Regions whose motions differ by less than this move alike; in pixels per frame", 0.0625,

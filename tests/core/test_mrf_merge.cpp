@@ -37,8 +37,10 @@ struct Row {
     motion.regions = motions;
   }
   std::vector<uint32_t> groups(const std::vector<uint32_t>& predicted = {}) const {
+    std::vector<ArcEnergy> energies;
     std::vector<WeightedArc> arcs;
-    weighArcs(motion, predicted, {}, arcs);
+    weighArcs(motion, predicted, {}, energies);
+    listArcs(*graph, energies, arcs);
     return solve(static_cast<uint32_t>(motion.regions.size()), arcs);
   }
 };

@@ -146,6 +146,20 @@ TEST(Objects, AMovingBodyIsOneObjectWithItsBoxAndSpeed) {
                                                      Point{219, 159}, Point{196, 159}));
 }
 
+TEST(Objects, RegionsAreExpectedToBeTheObjectThatMovesThere) {
+  Scene scene;
+  std::shared_ptr<const Objects> objects;
+  for (int i = 0; i < 20; ++i)
+    objects = scene.show({{{20 + 12 * i, 80, 12, 30}, kRed}, {{20 + 12 * i, 110, 12, 30}, kBlue}});
+  EXPECT_EQ(objects->regionExpected, (std::vector<uint64_t>{1, 1}));
+  ASSERT_EQ(objects->arcs.size(), 1u);
+  EXPECT_EQ(objects->arcs[0].border, 12 * 256);
+  EXPECT_EQ(objects->arcs[0].arc, 256);
+  EXPECT_EQ(objects->arcs[0].prediction, 2 * 256 * 18);  // √360, rounded down
+  EXPECT_EQ(objects->arcs[0].motion, 0);
+  EXPECT_EQ(objects->regionGroup, (std::vector<uint32_t>{0, 0}));
+}
+
 TEST(Objects, SlowEntryFromTheBorderMakesOneObject) {
   Scene scene;
   std::set<uint64_t> ids;
