@@ -8,7 +8,9 @@
  *
  * format=jsonl writes one JSON object a frame; the JSON Schema is installed as
  * gst-regiongraph/regiongraph.schema.json in the data folder. format=mot writes MOTChallenge CSV
- * (frame,id,left,top,width,height,1,-1,-1,-1), format=regions CSV with a header.
+ * (frame,id,left,top,width,height,1,-1,-1,-1), format=regions CSV with a header. format=graph
+ * writes a JSON object a frame that explains each merge: regions, arcs and their energies
+ * (regiongraph-graph.schema.json; examples/graph.py draws one frame of it).
  *
  * Objects are listed while they are tracked, stopped or occluded. Coordinates are pixels of the
  * frame as it arrives here: where it was scaled behind mrfmerge, they are scaled too. Frames count
@@ -20,6 +22,7 @@
  *   srg ! prmmotion ! mrfmerge ! regionwrite location=objects.jsonl ! fakesink
  * ]|
  */
+#include "core/text/graph.hpp"
 #include "core/text/json.hpp"
 #include "core/text/mot.hpp"
 #include "core/text/regions.hpp"
@@ -34,7 +37,7 @@
 namespace rg {
 namespace {
 
-enum class Format : int { JsonLines, Mot, Regions };
+enum class Format : int { JsonLines, Mot, Regions, Graph };
 
 GType formatType() {
   static const GEnumValue values[] = {
@@ -44,6 +47,10 @@ GType formatType() {
        "mot"},
       {static_cast<int>(Format::Regions),
        "CSV with a header: one line for each region of each frame, with its motion", "regions"},
+      {static_cast<int>(Format::Graph),
+       "JSON lines: the region graph of each frame, with the energy of each arc and why regions "
+       "were merged or not",
+       "graph"},
       {0, nullptr, nullptr}};
   static const GType type = registerEnum("GstRegionWriteFormat", values);
   return type;
@@ -62,8 +69,8 @@ constexpr std::array kProperties{
         "gst-launch-1.0 with -q then)",
         0, 0, Mutable::Ready),
     enumProperty<Settings, &Settings::format>(
-        "format", "What is written; jsonl and mot need mrfmerge, regions needs srg", formatType,
-        Mutable::Ready),
+        "format", "What is written; jsonl, mot and graph need mrfmerge, regions needs srg",
+        formatType, Mutable::Ready),
     property<Settings, &Settings::hasContours>(
         "contours",
         "format=jsonl: also write each object's outline, in pixels; the lines get much longer"),
@@ -132,6 +139,8 @@ class RegionWrite final : public StageFilter {
     const Objects& objects = upstream.result ? *upstream.result : skipped_;
     if (format_ == Format::Mot) {
       text::appendMot(lines_, objects, stamp);
+    } else if (format_ == Format::Graph) {
+      text::appendGraph(lines_, objects, stamp);
     } else {
       const bool hasContours = snapshot(settings_.hasContours);
       text::appendJson(lines_, objects, stamp,
@@ -173,8 +182,10 @@ const FilterDescription kDescription{
         "Writes what the elements before it found to a file and passes the frames on untouched: "
         "objects as JSON lines (schema: gst-regiongraph/regiongraph.schema.json in the data "
         "folder) "
-        "or MOTChallenge CSV, or regions with their motion as CSV. Each frame's lines are written "
-        "at once; frames count from 1. Needs mrfmerge, for regions srg",
+        "or MOTChallenge CSV, regions with their motion as CSV, or the region graph with the "
+        "energy "
+        "of each arc as JSON lines. Each frame's lines are written at once; frames count from 1. "
+        "Needs mrfmerge, for regions srg",
     .example =
         "gst-launch-1.0 -q videotestsrc pattern=ball num-buffers=100 ! "
         "video/x-raw,format=I420 ! bgremove ! hsvsegment ! srg ! prmmotion ! mrfmerge ! "

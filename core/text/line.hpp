@@ -25,7 +25,7 @@ void appendInteger(std::string& out, int64_t value);
 void appendUnsigned(std::string& out, uint64_t value);
 
 /// numerator / denominator with `decimals` digits after the point (1 … 6), rounded to the nearest,
-/// halves away from zero; zero has no sign. denominator > 0; |numerator| < 2^43.
+/// halves away from zero; zero has no sign. denominator > 0; |numerator| · 10^decimals < 2^63.
 void appendFixed(std::string& out, int64_t numerator, int64_t denominator, int decimals);
 
 /// RFC 3339, in UTC with nanoseconds: 2026-11-21T11:25:00.000000000Z.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Prints what the JSON writer makes of results that use every field and every word that it knows.
-// test_schema.py holds the lines against the published schema.
+// Prints what the JSON writers make of results that use every field and every word that they know:
+// with the argument "graph" region graphs, otherwise objects. test_schema.py holds the lines
+// against the published schemas.
+#include "core/text/graph.hpp"
 #include "core/text/json.hpp"
 
 #include <cstdint>
@@ -59,9 +61,41 @@ Objects makeExtremes() {
   return objects;
 }
 
-void print() {
+constexpr auto kLatest = std::numeric_limits<uint64_t>::max();
+
+/// Three regions: 1 and 2 are merged, 3 moves otherwise.
+Objects makeGraph(uint32_t areaPx, int32_t motion, int64_t energy) {
+  auto graph = std::make_shared<Graph>();
+  graph->regions = {{areaPx, {0, 0, 12, 30}, 1500, 3900, {1, 2, 255}},
+                    {areaPx, {12, 0, 1, 1}, 3100, 0, {}},
+                    {areaPx, {20, 20, 300, 220}, 43000, 33000, {9, 9, 9}}};
+  graph->arcs = {{1, 2, 1, 255}, {2, 3, areaPx, areaPx}};
+  auto regions = std::make_shared<Motion>();
+  regions->graph = graph;
+  regions->regions = {{0, 0, 0, 0}, {motion, -motion, 0, 128}, {-motion, 5, 0, kFullReliability}};
+  Objects objects;
+  objects.size = {320, 240};
+  objects.status = Status::Ok;
+  objects.motion = regions;
+  objects.regionGroup = {0, 0, 1};
+  objects.regionObject = {7, 7, 0};
+  objects.regionExpected = {7, 0, 0};
+  objects.arcs = {{0, 256, 256, energy}, {energy, energy / 3, 256, 0}};
+  return objects;
+}
+
+void printGraphs() {
+  std::string out;
+  text::appendGraph(out, {}, {1, {1, 1}, {}, {}});
+  text::appendGraph(out, makeGraph(100, 20, 700), {2, {320, 240}, 40'000'000, {}});
+  text::appendGraph(out, makeGraph(100, 20, 700), {3, {640, 360}, 0, 1'763'722'800'000'000'001});
+  text::appendGraph(out, makeGraph(1u << 28, 1024, int64_t{1} << 46),
+                    {kLatest, {16384, 16384}, kLatest, kLatest});
+  std::cout << out;
+}
+
+void printObjects() {
   using text::Contours;
-  constexpr auto kLatest = std::numeric_limits<uint64_t>::max();
   std::string out;
   text::appendJson(out, {}, {1, {1, 1}, {}, {}}, Contours::Omit);
   Objects objects = makeObjects();
@@ -78,6 +112,9 @@ void print() {
 }  // namespace
 }  // namespace rg
 
-int main() {
-  rg::print();
+int main(int argc, char** argv) {
+  if (argc > 1 && std::string_view(argv[1]) == "graph")
+    rg::printGraphs();
+  else
+    rg::printObjects();
 }

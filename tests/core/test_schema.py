@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Holds lines of the JSON writer against the published schema, with python3-jsonschema.
+"""Holds lines of a JSON writer against its published schema, with python3-jsonschema.
 
-usage: test_schema.py SCHEMA WRITER        WRITER is a program that prints JSON lines
+usage: test_schema.py SCHEMA WRITER [ARGUMENT]     WRITER is a program that prints JSON lines
 
 Every line has to pass. Then each of them is spoilt in ways that the schema has to notice: a schema
 that lets anything through fails this test.
@@ -26,12 +26,22 @@ def put(key, value):
     return f'{key} = {value!r}', lambda line: line.update({key: value})
 
 
-SPOILT_FRAMES = [drop(key) for key in ('schema', 'frame', 'pts', 'status', 'resolution', 'camera',
-                                       'objects', 'events')]
-SPOILT_FRAMES += [put('schema', '2.0'), put('frame', 0), put('frame', 1.5), put('pts', -1),
-                  put('pts', '0'), put('utc', '2026-11-21 11:00:00'), put('status', 'fine'),
-                  put('resolution', {'width': 0, 'height': 1}), put('camera', {'x': 0}),
-                  put('objects', {}), put('extra', 1)]
+HEAD = [drop(key) for key in ('schema', 'frame', 'pts', 'status', 'resolution')]
+HEAD += [put('schema', '2.0'), put('frame', 0), put('frame', 1.5), put('pts', -1), put('pts', '0'),
+         put('utc', '2026-11-21 11:00:00'), put('status', 'fine'),
+         put('resolution', {'width': 0, 'height': 1}), put('extra', 1)]
+SPOILT_FRAMES = HEAD + [drop('camera'), drop('objects'), drop('events'), put('camera', {'x': 0}),
+                        put('objects', {})]
+SPOILT_GRAPHS = HEAD + [drop('energy'), drop('regions'), drop('arcs'), put('energy', {'total': 0}),
+                        put('regions', {})]
+SPOILT_REGIONS = [drop(key) for key in ('id', 'x', 'y', 'w', 'h', 'centroid', 'area', 'colour',
+                                        'motion', 'reliability', 'group', 'expected', 'object')]
+SPOILT_REGIONS += [put('id', 0), put('w', -1), put('area', 0.5), put('reliability', 1.01),
+                   put('motion', {'x': 1}), put('group', -1), put('object', None), put('extra', 1)]
+SPOILT_ARCS = [drop(key) for key in ('a', 'b', 'length', 'contrast', 'motion', 'border', 'arc',
+                                     'prediction', 'weight', 'kept')]
+SPOILT_ARCS += [put('a', 0), put('b', 1), put('length', 0), put('border', -1), put('weight', '1'),
+                put('kept', 1), put('extra', 1)]
 SPOILT_OBJECTS = [drop(key) for key in ('id', 'state', 'x', 'y', 'w', 'h', 'centroid', 'area',
                                         'velocity', 'age', 'colour', 'parents')]
 SPOILT_OBJECTS += [put('id', 0), put('state', 'new'), put('state', 'lost'), put('x', 0.5),
@@ -41,13 +51,15 @@ SPOILT_OBJECTS += [put('id', 0), put('state', 'new'), put('state', 'lost'), put(
 SPOILT_EVENTS = [drop('type'), drop('ids'), put('type', 'birth'), put('ids', ['1'])]
 
 
+LISTS = {'objects': ('object', SPOILT_OBJECTS), 'events': ('event', SPOILT_EVENTS),
+         'regions': ('region', SPOILT_REGIONS), 'arcs': ('arc', SPOILT_ARCS)}
+
+
 def spoilt(line):
     """Copies of the line with one fault each, and what the fault is."""
-    parts = [('frame', lambda copied: copied, SPOILT_FRAMES)]
-    if line['objects']:
-        parts.append(('object', lambda copied: copied['objects'][-1], SPOILT_OBJECTS))
-    if line['events']:
-        parts.append(('event', lambda copied: copied['events'][0], SPOILT_EVENTS))
+    parts = [('frame', lambda copied: copied, SPOILT_GRAPHS if 'arcs' in line else SPOILT_FRAMES)]
+    parts += [(name, lambda copied, key=key: copied[key][-1], faults)
+              for key, (name, faults) in LISTS.items() if line.get(key)]
     for name, part, faults in parts:
         for what, spoil in faults:
             copied = copy.deepcopy(line)
@@ -56,12 +68,12 @@ def spoilt(line):
 
 
 def main():
-    schema_path, writer = sys.argv[1:]
+    schema_path, *writer = sys.argv[1:]
     with open(schema_path, encoding='utf-8') as file:
         schema = json.load(file)
     jsonschema.Draft202012Validator.check_schema(schema)
     validator = jsonschema.Draft202012Validator(schema)
-    output = subprocess.run([writer], check=True, capture_output=True).stdout.decode('ascii')
+    output = subprocess.run(writer, check=True, capture_output=True).stdout.decode('ascii')
     lines = [json.loads(line) for line in output.splitlines()]
     findings = []
     for number, line in enumerate(lines, 1):
@@ -69,8 +81,8 @@ def main():
                      for error in validator.iter_errors(line)]
         findings += [f'line {number}: the schema accepts a line with this fault: {what}'
                      for what, bad in spoilt(line) if validator.is_valid(bad)]
-    counts = {len(line['objects']) for line in lines}
-    if len(counts) < 2 or not any('utc' in line for line in lines):
+    sizes = {len(json.dumps(line)) for line in lines}
+    if len(sizes) < 3 or not any('utc' in line for line in lines):
         findings.append('the lines do not show all that the writer can do')
     print('\n'.join(findings) or f'{len(lines)} lines agree with {schema["$id"]}')
     sys.exit(bool(findings))

@@ -105,6 +105,27 @@ TEST_F(RegionWrite, WritesRegionsUnderAHeader) {
                            "1,2,1536,32,0,32,48,47.50,23.50,0.0000,0.0000,0.0000,0\n");
 }
 
+TEST_F(RegionWrite, WritesTheGraphWithTheEnergyOfItsArcs) {
+  Chain chain(line("format=graph"));
+  auto motion = std::make_shared<Motion>();
+  motion->graph = testing::graph(kSize);
+  motion->regions.resize(2);
+  const std::shared_ptr<Objects> objects = oneObject();
+  objects->motion = motion;
+  objects->regionObject = {3, 0};
+  objects->regionExpected = {3, 3};
+  objects->regionGroup = {0, 1};
+  objects->arcs = {{512, 256, 128, 64}};
+  ASSERT_TRUE(chain.pass(frame(0, objects)));
+  EXPECT_NE(written().find(R"("energy":{"motion":0.00,"border":1.00,"arc":0.50,)"
+                           R"("prediction":0.25,"total":1.75})"),
+            std::string::npos);
+  EXPECT_NE(written().find(R"("group":0,"expected":3,"object":3})"), std::string::npos);
+  EXPECT_NE(written().find(R"("motion":2.00,"border":1.00,"arc":0.50,"prediction":0.25,)"
+                           R"("weight":-0.25,"kept":false}]})"),
+            std::string::npos);
+}
+
 TEST_F(RegionWrite, MapsToFramesThatWereScaled) {
   Chain chain(line("format=mot"), Caps{"GRAY8", 128, 24});
   BufferPtr buffer = paint(chain.caps(), 0, square(1, 1, 5));

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "core/text/graph.hpp"
+
+#include "core/mapping.hpp"
+#include "core/text/json_parts.hpp"
+
+namespace rg::text {
+namespace {
+
+constexpr int64_t kEnergyUnit = 256;
+constexpr int64_t kCentroidUnit = 256;
+
+bool isKept(const Objects& objects, const Arc& arc) {
+  return objects.regionGroup[arc.a - 1u] == objects.regionGroup[arc.b - 1u];
+}
+
+/// The terms of U that count: U1 of kept arcs, the others of broken ones.
+void appendTotals(std::string& out, const Objects& objects, const Graph* graph) {
+  ArcEnergy sum;
+  for (size_t i = 0; graph && i < graph->arcs.size(); ++i) {
+    const ArcEnergy& arc = objects.arcs[i];
+    if (isKept(objects, graph->arcs[i])) {
+      sum.motion += arc.motion;
+    } else {
+      sum.border += arc.border;
+      sum.arc += arc.arc;
+      sum.prediction += arc.prediction;
+    }
+  }
+  out += ",\"energy\":{";
+  appendReal(out, "motion", sum.motion, kEnergyUnit);
+  out += ',';
+  appendReal(out, "border", sum.border, kEnergyUnit);
+  out += ',';
+  appendReal(out, "arc", sum.arc, kEnergyUnit);
+  out += ',';
+  appendReal(out, "prediction", sum.prediction, kEnergyUnit);
+  out += ',';
+  appendReal(out, "total", sum.motion + sum.border + sum.arc + sum.prediction, kEnergyUnit);
+  out += '}';
+}
+
+void appendRegion(std::string& out, const Objects& objects, size_t index, const FrameMap& map) {
+  const Region& region = objects.motion->graph->regions[index];
+  const RegionMotion& motion = objects.motion->regions[index];
+  out += "{\"id\":";
+  appendUnsigned(out, index + 1);
+  out += ',';
+  appendBox(out, map.box(region.box));
+  out += ',';
+  appendPair(out, "centroid", map.x(region.centroidX), map.y(region.centroidY), kCentroidUnit);
+  out += ',';
+  appendNumber(out, "area", map.area(region.areaPx));
+  out += ',';
+  appendColour(out, region.colour);
+  out += ',';
+  appendPair(out, "motion", map.x(motion.dx), map.y(motion.dy), kMotionUnit);
+  out += ',';
+  appendReal(out, "reliability", motion.reliability, kFullReliability);
+  out += ',';
+  appendNumber(out, "group", objects.regionGroup[index]);
+  out += ",\"expected\":";
+  appendUnsigned(out, objects.regionExpected[index]);
+  out += ",\"object\":";
+  appendUnsigned(out, objects.regionObject[index]);
+  out += '}';
+}
+
+void appendArc(std::string& out, const Objects& objects, size_t index) {
+  const Arc& arc = objects.motion->graph->arcs[index];
+  const ArcEnergy& energy = objects.arcs[index];
+  out += '{';
+  appendNumber(out, "a", arc.a);
+  out += ',';
+  appendNumber(out, "b", arc.b);
+  out += ',';
+  appendNumber(out, "length", arc.borderPx);
+  out += ',';
+  appendReal(out, "contrast", arc.contrast, arc.borderPx);
+  out += ',';
+  appendReal(out, "motion", energy.motion, kEnergyUnit);
+  out += ',';
+  appendReal(out, "border", energy.border, kEnergyUnit);
+  out += ',';
+  appendReal(out, "arc", energy.arc, kEnergyUnit);
+  out += ',';
+  appendReal(out, "prediction", energy.prediction, kEnergyUnit);
+  out += ',';
+  appendReal(out, "weight", energy.weight(), kEnergyUnit);
+  out += isKept(objects, arc) ? ",\"kept\":true}" : ",\"kept\":false}";
+}
+
+}  // namespace
+
+void appendGraph(std::string& out, const Objects& objects, const FrameStamp& stamp) {
+  const FrameMap map = mapBetween(objects.size, stamp.size);
+  const bool hasGraph = objects.motion && objects.motion->graph && !objects.regionGroup.empty();
+  const Graph* graph = hasGraph ? objects.motion->graph.get() : nullptr;
+  appendHead(out, objects.status, stamp, kGraphSchemaVersion);
+  appendTotals(out, objects, graph);
+  out += ",\"regions\":[";
+  for (size_t i = 0; graph && i < graph->regions.size(); ++i) {
+    appendComma(out);
+    appendRegion(out, objects, i, map);
+  }
+  out += "],\"arcs\":[";
+  for (size_t i = 0; graph && i < graph->arcs.size(); ++i) {
+    appendComma(out);
+    appendArc(out, objects, i);
+  }
+  out += "]}\n";
+}
+
+}  // namespace rg::text
