@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Frames of a plan, and what is true in each of them.
+#pragma once
+
+#include "tests/accuracy/plan.hpp"
+#include "tests/benchmarks/scene.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace rg::truth {
+
+/// Upper left corner and size, unrounded.
+struct RealBox {
+  double x = 0, y = 0, width = 0, height = 0;
+};
+
+/// An actor in a frame.
+struct Fact {
+  int actor = 0;
+  RealBox box;                          ///< All of it, hidden or not.
+  double centroidX = 0, centroidY = 0;  ///< Of all its pixels.
+  double visible = 0;                   ///< Share of its pixels that is to be seen, 0 … 1.
+  bool isInside = false;                ///< All of it lies within the frame.
+  bool isSteady = false;                ///< It keeps its speed for a second before and after.
+};
+
+struct Scene {
+  std::vector<Fact> facts;
+  double cameraDx = 0, cameraDy = 0;  ///< Motion of the ground since the previous frame, in pixels.
+};
+
+class Painter {
+ public:
+  Painter(Plan plan, std::unique_ptr<CanvasSource> source, uint32_t seed);
+
+  /// Paints the next frame; false when the plan is over.
+  bool next(bench::RawFrame& frame, Scene& scene);
+  [[nodiscard]] const Plan& plan() const { return plan_; }
+
+ private:
+  void paintGround(const Canvas& canvas, const Waypoint& view, const Box& box);
+  void paintActor(size_t index, const Waypoint& view, Scene& scene);
+  void addNoise(bench::RawFrame& frame);
+
+  Plan plan_;
+  std::unique_ptr<CanvasSource> source_;
+  uint32_t seed_;
+  int frame_ = 0;
+  std::vector<Rgb> pixels_;
+  std::vector<int> top_;  ///< Of each pixel the actor that is seen, −1 = the ground.
+  std::vector<float> noise_;
+};
+
+}  // namespace rg::truth

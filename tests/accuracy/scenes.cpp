@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Made-up scenes with known truth through the five stages, without GStreamer.
+#include "core/background.hpp"
+#include "core/objects.hpp"
+#include "core/pool.hpp"
+#include "core/text/names.hpp"
+#include "tests/accuracy/painter.hpp"
+#include "tests/accuracy/verdict.hpp"
+
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <iostream>
+#include <string>
+
+namespace rg::truth {
+namespace {
+
+struct Options {
+  bool isPan = false;
+  bool hasGates = false;
+  bool explains = false;
+  uint32_t firstSeed = 1, lastSeed = 20;
+  Size size{640, 480};
+  std::string background;  ///< A .y4m file; empty: a yard that follows from the seed.
+  std::string pictures;    ///< A folder for frames with the boxes of truth and report.
+  int every = 25;          ///< Of these, one in so many frames.
+};
+
+constexpr char kUsage[] =
+    "usage: scenes [--pan] [--gate] [--explain] [--seeds FIRST:LAST] [--size WxH]\n"
+    "              [--background FILE.y4m] [--pictures FOLDER] [--every N]\n"
+    "  --pan         the camera moves and bgremove is left out (default: it stands still)\n"
+    "  --gate        exit 1 when a figure misses its gate\n"
+    "  --explain     tell which number each actor had when\n"
+    "  --background  what the scene is painted on (default: a yard that follows from the seed)\n"
+    "  --pictures    write frames there: the truth's boxes white, the reported ones coloured\n";
+
+template <class T>
+T valueOf(Result<T> result) {
+  if (result) return *std::move(result);
+  std::cerr << "scenes: " << result.error().message << '\n';
+  std::exit(1);
+}
+
+class Pipeline {
+ public:
+  explicit Pipeline(bool isPan)
+      : context_{std::make_shared<Executor>(0), {}},
+        background_(isPan ? nullptr : makeBackgroundStage(context_)),
+        segmentation_(makeSegmentationStage(context_)),
+        graph_(makeGraphStage(context_)),
+        motion_(makeMotionStage(context_)),
+        objects_(makeObjectStage(context_)) {}
+
+  std::shared_ptr<const Objects> process(const bench::RawFrame& raw) {
+    const auto picture = pictures_.take();
+    picture->load(raw.view(), *context_.cpu);
+    const FrameTime time{frames_++ * 40'000'000, true};
+    std::shared_ptr<const Foreground> foreground;
+    SegmentationParams segmentation;
+    if (background_) {
+      foreground = valueOf(background_->process(picture, {}, time));
+      segmentation.scope = Scope::Foreground;
+    }
+    const auto labels = valueOf(segmentation_->process(picture, foreground, segmentation));
+    const auto graph = valueOf(graph_->process(labels, {}));
+    const auto motion = valueOf(motion_->process(graph, {}));
+    return valueOf(objects_->process(motion, {}, time));
+  }
+
+ private:
+  Context context_;
+  Pool<Picture> pictures_;
+  std::unique_ptr<BackgroundStage> background_;
+  std::unique_ptr<SegmentationStage> segmentation_;
+  std::unique_ptr<GraphStage> graph_;
+  std::unique_ptr<MotionStage> motion_;
+  std::unique_ptr<ObjectStage> objects_;
+  int64_t frames_ = 0;
+};
+
+void outline(bench::RawFrame& frame, const Box& box, const std::array<uint8_t, 3>& colour) {
+  const Box bounds = boundsOf(frame.layout.size);
+  const auto put = [&](int x, int y) {
+    if (bounds.contains({x, y}))
+      std::copy(colour.begin(), colour.end(),
+                frame.bytes.begin() + 3 * (int64_t{y} * bounds.width + x));
+  };
+  for (int x = box.x; x < box.right(); ++x) {
+    put(x, box.y);
+    put(x, box.bottom() - 1);
+  }
+  for (int y = box.y; y < box.bottom(); ++y) {
+    put(box.x, y);
+    put(box.right() - 1, y);
+  }
+}
+
+/// A .ppm of the frame. Its buffer is drawn upon.
+void writePicture(const std::string& path, bench::RawFrame& frame, const Scene& scene,
+                  const Objects& objects) {
+  const Image<uint16_t>& slots = objects.slots;
+  for (int y = 0; y < slots.height(); ++y)
+    for (int x = 0; x < slots.width(); ++x)
+      if (slots.at(x, y) != 0) {
+        uint8_t& green =
+            frame.bytes[3 * (static_cast<size_t>(y) * static_cast<size_t>(slots.width()) +
+                             static_cast<size_t>(x)) +
+                        1];
+        green = static_cast<uint8_t>(std::min(255, green + 60));
+      }
+  for (const Fact& fact : scene.facts)
+    outline(frame,
+            {static_cast<int>(fact.box.x), static_cast<int>(fact.box.y),
+             static_cast<int>(fact.box.width), static_cast<int>(fact.box.height)},
+            {255, 255, 255});
+  for (const Object& object : objects.objects) {
+    const uint32_t hash = mixHash(static_cast<uint32_t>(object.id), 0, 5);
+    const auto strong = [&](int shift) { return static_cast<uint8_t>(hash >> shift & 255); };
+    if (text::isListed(object.state))
+      outline(frame, object.box, {strong(0), strong(8), strong(16)});
+    else if (object.state == ObjectState::New)
+      outline(frame, object.box, {0, 0, 0});
+  }
+  std::ofstream file(path, std::ios::binary);
+  file << "P6\n" << frame.layout.size.width << ' ' << frame.layout.size.height << "\n255\n";
+  file.write(reinterpret_cast<const char*>(frame.bytes.data()),
+             static_cast<std::streamsize>(frame.bytes.size()));
+}
+
+Figures play(const Options& options, uint32_t seed) {
+  Plan plan = options.isPan ? planPan(seed, options.size) : planStill(seed, options.size);
+  const Size canvas = plan.canvas;
+  Painter painter(std::move(plan),
+                  options.background.empty() ? makeYard(seed, canvas)
+                                             : valueOf(openClip(options.background, canvas)),
+                  seed);
+  Pipeline pipeline(options.isPan);
+  Verdict verdict;
+  bench::RawFrame frame;
+  Scene scene;
+  for (int number = 0; painter.next(frame, scene); ++number) {
+    const auto objects = pipeline.process(frame);
+    verdict.add(scene, *objects);
+    if (!options.pictures.empty() && number % options.every == 0) {
+      char name[64];
+      std::snprintf(name, sizeof name, "/seed%u_%05d.ppm", seed, number);
+      writePicture(options.pictures + name, frame, scene, *objects);
+    }
+  }
+  if (options.explains) verdict.explain(std::cout);
+  return verdict.figures();
+}
+
+bool isGood(const Figures& f, bool isPan) {
+  if (isPan) return f.cameraPx <= 0.25 && f.recall >= 0.95 && f.falsePerFrame <= 0.05;
+  return f.idf1 >= 1;
+}
+
+int run(const Options& options) {
+  int good = 0, count = 0;
+  double centroid = 0, worst = 0;
+  for (uint32_t seed = options.firstSeed; seed <= options.lastSeed; ++seed) {
+    const Figures f = play(options, seed);
+    if (options.isPan)
+      std::printf("seed %u: camera %.3f (worst %.3f) px, found %.3f, false %.3f per frame", seed,
+                  f.cameraPx, f.cameraWorstPx, f.recall, f.falsePerFrame);
+    else
+      std::printf("seed %u: IDF1 %.4f, found %.4f, false %.3f per frame", seed, f.idf1, f.recall,
+                  f.falsePerFrame);
+    std::printf(", centroid %.2f px, hidden %.2f (worst %.2f) px%s\n", f.centroidPx, f.hiddenPx,
+                f.hiddenWorstPx, isGood(f, options.isPan) ? "" : "  <-");
+    std::fflush(stdout);
+    good += isGood(f, options.isPan);
+    centroid += f.centroidPx;
+    worst = std::max(worst, f.hiddenWorstPx);
+    ++count;
+  }
+  std::printf("good=%d of %d\ncentroid_px=%.3f\nhidden_worst_px=%.2f\n", good, count,
+              centroid / std::max(count, 1), worst);
+  return options.hasGates && 20 * good < 19 * count ? 1 : 0;
+}
+
+bool parse(int argc, char** argv, Options& options) {
+  for (int i = 1; i < argc; ++i) {
+    const std::string name = argv[i];
+    const char* value = i + 1 < argc ? argv[i + 1] : "";
+    if (name == "--pan")
+      options.isPan = true;
+    else if (name == "--gate")
+      options.hasGates = true;
+    else if (name == "--explain")
+      options.explains = true;
+    else if (++i == argc)
+      return false;
+    else if (name == "--background")
+      options.background = value;
+    else if (name == "--pictures")
+      options.pictures = value;
+    else if (name == "--every" && std::sscanf(value, "%d", &options.every) == 1)
+      continue;
+    else if (name == "--seeds" &&
+             std::sscanf(value, "%u:%u", &options.firstSeed, &options.lastSeed) == 2)
+      continue;
+    else if (name == "--size" &&
+             std::sscanf(value, "%dx%d", &options.size.width, &options.size.height) == 2)
+      continue;
+    else
+      return false;
+  }
+  return options.size.width >= 64 && options.size.height >= 64 && options.every > 0;
+}
+
+}  // namespace
+}  // namespace rg::truth
+
+int main(int argc, char** argv) {
+  rg::truth::Options options;
+  if (!rg::truth::parse(argc, argv, options)) {
+    std::cerr << rg::truth::kUsage;
+    return 2;
+  }
+  return rg::truth::run(options);
+}

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "tests/accuracy/verdict.hpp"
+
+#include "core/assignment.hpp"
+#include "core/text/names.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace rg::truth {
+namespace {
+
+constexpr double kSeen = 0.1;      // Less is hidden.
+constexpr double kClear = 0.9;     // Its centroid can be measured.
+constexpr double kMatch = 0.5;     // IoU.
+constexpr int kWithoutCamera = 2;  // Frames before the first motion that can be measured.
+
+double sharedArea(const RealBox& a, const Box& b) {
+  const double width = std::min(a.x + a.width, double(b.right())) - std::max(a.x, double(b.x));
+  const double height = std::min(a.y + a.height, double(b.bottom())) - std::max(a.y, double(b.y));
+  return width > 0 && height > 0 ? width * height : 0;
+}
+
+double overlap(const RealBox& a, const Box& b) {
+  const double shared = sharedArea(a, b);
+  return shared / (a.width * a.height + static_cast<double>(b.area()) - shared);
+}
+
+bool isToBeFound(const Fact& fact) {
+  return fact.isInside && fact.visible >= kSeen;
+}
+
+double distance(const Fact& fact, const Object& object) {
+  return std::hypot(double(object.centroidX) / kPositionUnit - fact.centroidX,
+                    double(object.centroidY) / kPositionUnit - fact.centroidY);
+}
+
+}  // namespace
+
+void Verdict::Mean::add(double value) {
+  sum += value;
+  most = std::max(most, value);
+  ++count;
+}
+
+void Verdict::Mean::add(const Mean& other) {
+  sum += other.sum;
+  most = std::max(most, other.most);
+  count += other.count;
+}
+
+void Verdict::note(int actor, uint64_t id) {
+  std::vector<Span>& spans = spans_[actor];
+  if (!spans.empty() && spans.back().id == id && spans.back().last == frames_ - 1)
+    spans.back().last = frames_;
+  else
+    spans.push_back({frames_, frames_, id});
+}
+
+void Verdict::add(const Scene& scene, const Objects& objects) {
+  std::set<uint64_t> fitting, excused;
+  for (const Fact& fact : scene.facts) {
+    uint64_t best = 0;
+    double most = kMatch;
+    for (const Object& object : objects.objects) {
+      const bool isListed = text::isListed(object.state);
+      const double fit = overlap(fact.box, object.box);
+      if (isListed && !isToBeFound(fact) &&
+          2 * sharedArea(fact.box, object.box) >= static_cast<double>(object.box.area()))
+        excused.insert(object.id);
+      if (isListed && fit >= kMatch) {
+        (isToBeFound(fact) ? fitting : excused).insert(object.id);
+        if (isToBeFound(fact)) {
+          Pair& pair = pairs_[{fact.actor, object.id}];
+          ++pair.matches;
+          if (fact.visible >= kClear) pair.clear.add(distance(fact, object));
+        }
+        if (fit > most) best = object.id;
+        most = std::max(most, fit);
+      }
+      if (fact.isInside && fact.isSteady && fact.visible < kClear)
+        pairs_[{fact.actor, object.id}].hidden.add(distance(fact, object));
+    }
+    if (!isToBeFound(fact)) continue;
+    ++facts_;
+    found_ += best != 0;
+    note(fact.actor, best);
+  }
+  for (const Object& object : objects.objects) {
+    if (!text::isListed(object.state)) continue;
+    if (!fitting.contains(object.id) && excused.contains(object.id)) continue;
+    ++reports_;
+    if (fitting.contains(object.id)) continue;
+    ++false_;
+    std::vector<Span>& spans = strays_[object.id];
+    if (!spans.empty() && spans.back().last == frames_ - 1)
+      spans.back().last = frames_;
+    else
+      spans.push_back({frames_, frames_, object.id});
+  }
+  if (frames_ >= kWithoutCamera)
+    camera_.add(std::hypot(double(objects.cameraDx) / kMotionUnit - scene.cameraDx,
+                           double(objects.cameraDy) / kMotionUnit - scene.cameraDy));
+  ++frames_;
+}
+
+/// The one-to-one assignment of numbers to actors that has most matches.
+std::map<int, uint64_t> Verdict::bestPartners() const {
+  std::vector<int> actors;
+  std::vector<uint64_t> ids;
+  for (const auto& [key, pair] : pairs_) {
+    if (std::find(actors.begin(), actors.end(), key.first) == actors.end())
+      actors.push_back(key.first);
+    if (std::find(ids.begin(), ids.end(), key.second) == ids.end()) ids.push_back(key.second);
+  }
+  std::sort(ids.begin(), ids.end());
+  std::vector<int64_t> costs(actors.size() * ids.size(), kForbidden);
+  for (size_t a = 0; a < actors.size(); ++a)
+    for (size_t i = 0; i < ids.size(); ++i) {
+      const auto found = pairs_.find({actors[a], ids[i]});
+      if (found != pairs_.end() && found->second.matches > 0)
+        costs[a * ids.size() + i] = frames_ - found->second.matches;
+    }
+  Assignment assignment;
+  assignment.solve(costs, static_cast<int>(actors.size()), static_cast<int>(ids.size()), frames_);
+  std::map<int, uint64_t> partners;
+  for (size_t a = 0; a < actors.size(); ++a) {
+    const int column = assignment.columnOf(static_cast<int>(a));
+    if (column >= 0) partners[actors[a]] = ids[static_cast<size_t>(column)];
+  }
+  return partners;
+}
+
+Figures Verdict::figures() const {
+  int64_t matches = 0;
+  Mean clear, hidden;
+  for (const auto& partner : bestPartners()) {
+    const Pair& pair = pairs_.at(partner);
+    matches += pair.matches;
+    clear.add(pair.clear);
+    hidden.add(pair.hidden);
+  }
+  Figures f;
+  f.idf1 = facts_ + reports_ == 0 ? 1 : 2.0 * double(matches) / double(facts_ + reports_);
+  f.recall = facts_ == 0 ? 1 : double(found_) / double(facts_);
+  f.falsePerFrame = frames_ == 0 ? 0 : double(false_) / frames_;
+  f.centroidPx = clear.mean();
+  f.hiddenPx = hidden.mean();
+  f.hiddenWorstPx = hidden.most;
+  f.cameraPx = camera_.mean();
+  f.cameraWorstPx = camera_.most;
+  return f;
+}
+
+void Verdict::explain(std::ostream& out) const {
+  const auto partners = bestPartners();
+  for (const auto& [actor, spans] : spans_) {
+    out << "  actor " << actor << ':';
+    for (const Span& span : spans) out << ' ' << span.first << '-' << span.last << " #" << span.id;
+    if (const auto partner = partners.find(actor); partner != partners.end()) {
+      const Pair& pair = pairs_.at(*partner);
+      out << " | clear " << pair.clear.mean() << " px, hidden " << pair.hidden.mean() << " ("
+          << pair.hidden.most << ") px";
+    }
+    out << '\n';
+  }
+  for (const auto& [id, spans] : strays_) {
+    out << "  fits nothing: #" << id << " at";
+    for (const Span& span : spans) out << ' ' << span.first << '-' << span.last;
+    out << '\n';
+  }
+}
+
+}  // namespace rg::truth
