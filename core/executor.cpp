@@ -43,4 +43,12 @@ void Executor::forEach(int count, const std::function<void(int)>& task) const {
   arena_->execute([&] { tbb::parallel_for(0, count, [&](int i) { task(i); }); });
 }
 
+void Executor::forEach(int count, const std::function<void(int, int)>& task) const {
+  if (!arena_ || count < 2) {
+    for (int i = 0; i < count; ++i) task(i, 0);
+    return;
+  }
+  forEach(count, [&](int i) { task(i, tbb::this_task_arena::current_thread_index()); });
+}
+
 }  // namespace rg

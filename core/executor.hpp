@@ -23,6 +23,8 @@ class Executor {
   void forRows(int rows, const std::function<void(int first, int last)>& task) const;
   /// Calls task(i) for i = 0 … count − 1, in any order.
   void forEach(int count, const std::function<void(int i)>& task) const;
+  /// The same; task(i, thread) may use what is kept for thread 0 … threads() − 1.
+  void forEach(int count, const std::function<void(int i, int thread)>& task) const;
 
  private:
   class Arena;

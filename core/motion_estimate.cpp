@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/motion_estimate.hpp"
 
-#include "core/cell_matching.hpp"
+#include "core/block_matching.hpp"
 #include "core/pixel.hpp"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ class Surface {
   Surface(std::span<const Sum> sums, int reach) : sums_(sums), reach_(reach) {}
   [[nodiscard]] int64_t at(Point d) const {
     const int side = 2 * reach_ + 1;
-    return static_cast<int64_t>(sums_[static_cast<size_t>((reach_ - d.x) * side + reach_ - d.y)]);
+    return static_cast<int64_t>(sums_[static_cast<size_t>((reach_ - d.y) * side + reach_ - d.x)]);
   }
   [[nodiscard]] bool isOnBorder(Point d) const {
     return std::max(absDiff(d.x, 0), absDiff(d.y, 0)) == reach_;

@@ -24,7 +24,7 @@ inline void add(GradientSums& to, const GradientSums& from) {
   to.pixels += from.pixels;
 }
 
-/// The best whole-pixel shift. sums: as core/cell_matching.hpp orders them.
+/// The best whole-pixel shift. sums: as core/block_matching.hpp orders them.
 template <class Sum>
 [[nodiscard]] RegionMotion estimateMotion(std::span<const Sum> sums, int reach,
                                           const GradientSums& gradients);

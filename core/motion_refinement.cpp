@@ -46,15 +46,13 @@ struct Sampler {
   }
 };
 
-void addCell(const CellPart& part, ImageView<const uint16_t> ids, ImageView<const uint8_t> luma,
-             const PaddedLuma& previous, const Sampler& sampler, int limit, NormalSums& sums) {
-  const int x0 = part.cellX * kCellSize, y0 = part.cellY * kCellSize;
-  const int xEnd = std::min(x0 + kCellSize, ids.width() - 1);
-  const int yEnd = std::min(y0 + kCellSize, ids.height() - 1);
-  for (int y = std::max(y0, 1); y < yEnd; ++y) {
+void addPart(const MatchedPart& part, ImageView<const uint8_t> luma, const PaddedLuma& previous,
+             const Sampler& sampler, int limit, NormalSums& sums) {
+  forBlocks(part, [&](int x0, int y) {
+    if (y == 0 || y == luma.height() - 1) return;
     const uint8_t *row = luma.row(y), *above = luma.row(y - 1), *below = luma.row(y + 1);
+    const int xEnd = std::min(x0 + kBlockWidth, luma.width() - 1);
     for (int x = std::max(x0, 1); x < xEnd; ++x) {
-      if (ids.row(y)[x] != part.label) continue;
       const int residual = row[x] * kFine - sampler.at(previous, x, y);
       if (std::abs(residual) > limit) continue;
       const int gx = row[x + 1] - row[x - 1], gy = below[x] - above[x];
@@ -65,7 +63,7 @@ void addCell(const CellPart& part, ImageView<const uint16_t> ids, ImageView<cons
       sums.yr += gy * residual;
       ++sums.pixels;
     }
-  }
+  });
 }
 
 /// The step that the fitting pixels ask for, in 1/256 px. Sums are scaled down together to 30 bits,
@@ -88,11 +86,10 @@ Point solve(const NormalSums& sums) {
 
 }  // namespace
 
-Point refineMotion(std::span<const CellPart> parts, ImageView<const uint16_t> ids,
-                   ImageView<const uint8_t> luma, const PaddedLuma& previous,
-                   const RegionMotion& start) {
+Point refineMotion(std::span<const MatchedPart> parts, ImageView<const uint8_t> luma,
+                   const PaddedLuma& previous, const RegionMotion& start) {
   int64_t pixels = 0;
-  for (const CellPart& part : parts) pixels += part.pixels;
+  for (const MatchedPart& part : parts) pixels += part.pixels();
   const int64_t mean = static_cast<int64_t>(start.sad) * kFine / std::max<int64_t>(pixels, 1);
   const auto limit = static_cast<int>(kFitFactor * mean + kLeastLimit);
   const int unit = kFine / kMotionUnit;
@@ -101,7 +98,7 @@ Point refineMotion(std::span<const CellPart> parts, ImageView<const uint16_t> id
   for (int step = 0; step < kSteps; ++step) {
     NormalSums sums;
     const Sampler sampler(d);
-    for (const CellPart& part : parts) addCell(part, ids, luma, previous, sampler, limit, sums);
+    for (const MatchedPart& part : parts) addPart(part, luma, previous, sampler, limit, sums);
     const Point move = solve(sums);
     if (move == Point{}) break;
     d = {std::clamp(d.x + move.x, origin.x - kFine + 1, origin.x + kFine - 1),

@@ -9,7 +9,7 @@
 // Determinism: integer sums over pixels, integer division.
 #pragma once
 
-#include "core/cell_matching.hpp"
+#include "core/block_matching.hpp"
 #include "core/region_motion.hpp"
 
 #include <cstdint>
@@ -19,8 +19,7 @@ namespace rg {
 
 /// parts: all of one region. Returns the vector in 1/16 px, less than a pixel from `start`, which
 /// is whole and not on the border of the search.
-[[nodiscard]] Point refineMotion(std::span<const CellPart> parts, ImageView<const uint16_t> ids,
-                                 ImageView<const uint8_t> luma, const PaddedLuma& previous,
-                                 const RegionMotion& start);
+[[nodiscard]] Point refineMotion(std::span<const MatchedPart> parts, ImageView<const uint8_t> luma,
+                                 const PaddedLuma& previous, const RegionMotion& start);
 
 }  // namespace rg

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/region_motion.hpp"
 
-#include "core/cell_matching.hpp"
-#include "core/inner_pixels.hpp"
+#include "core/block_matching.hpp"
+#include "core/matched_blocks.hpp"
 #include "core/motion_estimate.hpp"
 #include "core/motion_refinement.hpp"
 #include "core/pool.hpp"
@@ -14,7 +14,7 @@
 namespace rg {
 namespace {
 
-constexpr uint32_t kPartsPerChunk = 32;
+constexpr uint32_t kPartsPerChunk = 16;
 /// Sums are kept for one batch of chunks only: whatever the number of regions, this many bytes.
 constexpr size_t kBatchBytes = size_t{4} << 20;
 constexpr size_t kMostChunksInBatch = 256;
@@ -31,24 +31,21 @@ struct Group {
   size_t last = 0;
 };
 
-GradientSums gradientsOf(const CellPart& part, ImageView<const uint16_t> ids,
-                         ImageView<const uint8_t> luma) {
+GradientSums gradientsOf(const MatchedPart& part, ImageView<const uint8_t> luma) {
   GradientSums sums;
-  sums.pixels = part.pixels;
-  const int x0 = part.cellX * kCellSize, y0 = part.cellY * kCellSize;
-  for (int y = y0; y < std::min(y0 + kCellSize, ids.height()); ++y) {
+  sums.pixels = part.pixels();
+  forBlocks(part, [&](int x0, int y) {
     const uint8_t* row = luma.row(y);
     const uint8_t* above = luma.row(std::max(y - 1, 0));
-    const uint8_t* below = luma.row(std::min(y + 1, ids.height() - 1));
-    for (int x = x0; x < std::min(x0 + kCellSize, ids.width()); ++x) {
-      if (ids.row(y)[x] != part.label) continue;
-      const int dx = row[std::min(x + 1, ids.width() - 1)] - row[std::max(x - 1, 0)];
+    const uint8_t* below = luma.row(std::min(y + 1, luma.height() - 1));
+    for (int x = x0; x < x0 + kBlockWidth; ++x) {
+      const int dx = row[std::min(x + 1, luma.width() - 1)] - row[std::max(x - 1, 0)];
       const int dy = below[x] - above[x];
       sums.xx += dx * dx;
       sums.xy += dx * dy;
       sums.yy += dy * dy;
     }
-  }
+  });
   return sums;
 }
 
@@ -62,7 +59,6 @@ class CpuMotion : public MotionStage {
 
  private:
   void match(const Graph& graph, const MotionParams& params, Motion& motion);
-  void collectParts(const Labels& labels);
   void cutChunks();
   void matchBatch(size_t first, size_t last, const Labels& labels);
   void closeBatch(size_t first, size_t last, Motion& motion);
@@ -70,7 +66,9 @@ class CpuMotion : public MotionStage {
   void addToCarry(const Group& group);
   [[nodiscard]] RegionMotion closeGroup(const Group& group);
 
-  [[nodiscard]] uint16_t labelOf(size_t chunk) const { return parts_[chunks_[chunk].first].label; }
+  [[nodiscard]] uint16_t labelOf(size_t chunk) const {
+    return blocks_.parts()[chunks_[chunk].first].label;
+  }
   [[nodiscard]] std::span<uint32_t> sumsOf(size_t slot) {
     return {sums_.data() + slot * shifts_, shifts_};
   }
@@ -78,10 +76,7 @@ class CpuMotion : public MotionStage {
   Context context_;
   std::shared_ptr<const Picture> previous_;
   PaddedLuma padded_;
-  InnerPixels pixels_;
-  std::vector<std::vector<CellPart>> rowParts_;
-  std::vector<CellPart> parts_;
-  std::vector<uint32_t> starts_;
+  MatchedBlocks blocks_;
   std::vector<Chunk> chunks_;
   std::vector<Group> groups_;
   int reach_ = 0;
@@ -118,15 +113,14 @@ void CpuMotion::match(const Graph& graph, const MotionParams& params, Motion& mo
   isSubpixel_ = params.isSubpixel;
   shifts_ = static_cast<size_t>(shiftCount(reach_));
   const Labels& labels = *graph.labels;
-  pixels_.find(labels.ids, graph.regions, *context_.cpu);
-  collectParts(labels);
-  if (parts_.empty()) return;
+  blocks_.find(labels.ids, graph.regions, *context_.cpu);
+  if (blocks_.parts().empty()) return;
   padded_.build(previous_->luma(), reach_, *context_.cpu);
   cutChunks();
   const size_t slots = std::min(kMostChunksInBatch, kBatchBytes / (shifts_ * sizeof(uint32_t)));
   sums_.resize(slots * shifts_);
   gradients_.resize(slots);
-  scratch_.resize(slots);
+  scratch_.resize(static_cast<size_t>(context_.cpu->threads()));
   carry_.assign(shifts_, 0);
   carriedGradients_ = {};
   for (size_t first = 0; first < chunks_.size(); first += slots) {
@@ -142,38 +136,20 @@ void CpuMotion::refine(const Labels& labels, Motion& motion) {
     const auto label = static_cast<size_t>(i) + 1;
     RegionMotion& region = motion.regions[label - 1];
     if (std::max(std::abs(region.dx), std::abs(region.dy)) >= reach_ * kMotionUnit) return;
-    const std::span<const CellPart> parts(parts_.data() + starts_[label - 1],
-                                          starts_[label] - starts_[label - 1]);
-    const Point d = refineMotion(parts, pixels_.ids(), labels.picture->luma(), padded_, region);
+    const Point d = refineMotion(blocks_.partsOf(static_cast<uint32_t>(label)),
+                                 labels.picture->luma(), padded_, region);
     region.dx = d.x;
     region.dy = d.y;
   });
 }
 
-// Sorted by label, then by cell: a count by label keeps the order of the cells.
-void CpuMotion::collectParts(const Labels& labels) {
-  const int rows = (labels.size.height + kCellSize - 1) / kCellSize;
-  rowParts_.resize(static_cast<size_t>(rows));
-  context_.cpu->forEach(rows, [&](int row) {
-    rowParts_[static_cast<size_t>(row)].clear();
-    findParts(pixels_.ids(), row, rowParts_[static_cast<size_t>(row)]);
-  });
-  starts_.assign(size_t{labels.count} + 2, 0);
-  for (const auto& row : rowParts_)
-    for (const CellPart& part : row) ++starts_[part.label + 1u];
-  std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
-  parts_.resize(starts_.back());
-  for (const auto& row : rowParts_)
-    for (const CellPart& part : row) parts_[starts_[part.label]++] = part;
-}
-
 void CpuMotion::cutChunks() {
+  const std::span<const MatchedPart> parts = blocks_.parts();
   chunks_.clear();
-  const auto count = static_cast<uint32_t>(parts_.size());
+  const auto count = static_cast<uint32_t>(parts.size());
   for (uint32_t first = 0; first < count;) {
     uint32_t last = first + 1;
-    while (last < count && last - first < kPartsPerChunk &&
-           parts_[last].label == parts_[first].label)
+    while (last < count && last - first < kPartsPerChunk && parts[last].label == parts[first].label)
       ++last;
     chunks_.push_back({first, last});
     first = last;
@@ -182,15 +158,14 @@ void CpuMotion::cutChunks() {
 
 void CpuMotion::matchBatch(size_t first, size_t last, const Labels& labels) {
   const ImageView<const uint8_t> luma = labels.picture->luma();
-  context_.cpu->forEach(static_cast<int>(last - first), [&](int i) {
+  context_.cpu->forEach(static_cast<int>(last - first), [&](int i, int thread) {
     const auto slot = static_cast<size_t>(i);
     const Chunk& chunk = chunks_[first + slot];
+    const auto parts = blocks_.parts().subspan(chunk.first, chunk.last - chunk.first);
     std::fill(sumsOf(slot).begin(), sumsOf(slot).end(), 0u);
+    addParts(parts, luma, padded_, scratch_[static_cast<size_t>(thread)], sumsOf(slot));
     gradients_[slot] = {};
-    for (uint32_t p = chunk.first; p < chunk.last; ++p) {
-      addPart(parts_[p], pixels_.ids(), luma, padded_, scratch_[slot], sumsOf(slot));
-      add(gradients_[slot], gradientsOf(parts_[p], pixels_.ids(), luma));
-    }
+    for (const MatchedPart& part : parts) add(gradients_[slot], gradientsOf(part, luma));
   });
 }
 

@@ -2,9 +2,9 @@
 // Stage 4, element prmmotion: partitioned region matching (paper, section 2.3 phase 2.1).
 //
 // A region's vector is the shift d = (dx, dy) that makes SAD(d) = sum over its matched pixels x of
-// |I_t(x) − I_t−1(x − d)| smallest: by how much it moved since the previous frame. Matched are the
-// pixels away from the region's border (core/inner_pixels.hpp). Pixels outside the previous frame
-// repeat its border. The fraction of a pixel follows from the gradients
+// |I_t(x) − I_t−1(x − d)| smallest: by how much it moved since the previous frame. Matched are
+// blocks of pixels away from the region's border (core/matched_blocks.hpp). Pixels outside the
+// previous frame repeat its border. The fraction of a pixel follows from the gradients
 // (core/motion_refinement.hpp).
 // Determinism: integer sums. Tie-break: smallest (SAD, |d|², dy, dx).
 #pragma once

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Which pixels of a region its motion is looked for with (part of stage 4).
+//
+// The band along a region's border is a mixture of what lies on both sides, and what is covered or
+// uncovered lies in it: matched are pixels away from the border, in whole blocks of 4x1 pixels, as
+// wide as a SAD instruction. A region that has few such blocks takes every block of which half is
+// its own; one that is too thin for that, none.
+// Determinism: each block depends on its neighbourhood and on integer counts. Parts are sorted by
+// label, then by row of parts, then by column.
+#pragma once
+
+#include "core/executor.hpp"
+#include "core/image.hpp"
+#include "core/region_graph.hpp"
+
+#include <bit>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace rg {
+
+inline constexpr int kBlockWidth = 4;  ///< Blocks start at its multiples, one row high.
+/// A block is inner when its pixels and so many to the left, right, top and bottom of each, as far
+/// as the frame goes, have one label.
+inline constexpr int kBorderReach = 3;
+/// Inner blocks are matched where their pixels are at least one in so many, and kLeastInnerPx.
+inline constexpr uint32_t kInnerShare = 4;
+inline constexpr uint32_t kLeastInnerPx = 16;
+
+inline constexpr int kPartWidth = 2 * kBlockWidth;
+inline constexpr int kPartHeight = 32;
+
+/// The matched blocks of one region in one tile of kPartWidth x kPartHeight pixels.
+struct MatchedPart {
+  uint64_t blocks = 0;  ///< Bit 2 row + half: the left or right block of a row of the tile.
+  uint16_t column = 0;  ///< In tiles.
+  uint16_t strip = 0;   ///< In tiles.
+  uint16_t label = 0;
+
+  [[nodiscard]] int x() const { return column * kPartWidth; }
+  [[nodiscard]] int y() const { return strip * kPartHeight; }
+  [[nodiscard]] uint32_t pixels() const {
+    return static_cast<uint32_t>(std::popcount(blocks)) * kBlockWidth;
+  }
+};
+
+/// Calls visit(x, y) for the first pixel of each block, by rows.
+template <class Visit>
+void forBlocks(const MatchedPart& part, Visit&& visit) {
+  for (uint64_t left = part.blocks; left != 0; left &= left - 1) {
+    const int bit = std::countr_zero(left);
+    visit(part.x() + bit % 2 * kBlockWidth, part.y() + bit / 2);
+  }
+}
+
+class MatchedBlocks {
+ public:
+  void find(ImageView<const uint16_t> labels, std::span<const Region> regions,
+            const Executor& executor);
+
+  [[nodiscard]] std::span<const MatchedPart> parts() const { return parts_; }
+  [[nodiscard]] std::span<const MatchedPart> partsOf(uint32_t label) const {
+    return parts().subspan(starts_[label - 1], starts_[label] - starts_[label - 1]);
+  }
+
+ private:
+  void compareRows(ImageView<const uint16_t> labels, const Executor& executor);
+  void findInner(int y);
+  void collectInner(ImageView<const uint16_t> labels, int strip);
+  [[nodiscard]] bool findThin(std::span<const Region> regions);
+  void collectThin(ImageView<const uint16_t> labels, int strip);
+  void sortParts(size_t labelCount);
+
+  Image<uint8_t> left_, up_;  ///< 0xFF: of one label with the pixel to the left, or above.
+  Image<uint8_t> inner_;      ///< 0xFF in all four pixels of an inner block.
+  std::vector<std::vector<MatchedPart>> strips_;
+  std::vector<uint8_t> isThin_;  ///< By label: takes what is half its own.
+  std::vector<uint32_t> counts_, starts_;
+  std::vector<MatchedPart> parts_;
+};
+
+}  // namespace rg
