@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/mrf_merge.hpp"
 
+#include "core/merge_chains.hpp"
 #include "core/pixel.hpp"
 
 #include <algorithm>
@@ -78,9 +79,9 @@ void contractArcs(MergeScratch& s) {
     if (low != high) s.arcs[kept++] = {low, high, arc.weight};
   }
   s.arcs.resize(kept);
-  std::sort(s.arcs.begin(), s.arcs.end(), [](const WeightedArc& p, const WeightedArc& q) {
-    return std::tuple(p.a, p.b, p.weight) < std::tuple(q.a, q.b, q.weight);
-  });
+  const auto keyOf = [](const WeightedArc& arc) { return uint64_t{arc.a} << 32 | arc.b; };
+  std::sort(s.arcs.begin(), s.arcs.end(),
+            [&](const WeightedArc& p, const WeightedArc& q) { return keyOf(p) < keyOf(q); });
   kept = 0;
   for (const WeightedArc& arc : s.arcs) {
     if (kept > 0 && s.arcs[kept - 1].a == arc.a && s.arcs[kept - 1].b == arc.b)
@@ -183,8 +184,11 @@ void splitAndNumber(std::span<const WeightedArc> arcs, MergeScratch& s,
 
 void improve(std::span<const WeightedArc> arcs, MergeScratch& s, std::vector<uint32_t>& groupOf) {
   contract(arcs, s, groupOf);
-  for (int restart = 0; restart < kMaxRestarts && moveNodes(groupOf, s); ++restart)
+  for (int restart = 0; restart < kMaxRestarts; ++restart) {
+    const bool hasMoved = moveNodes(groupOf, s);
+    if (!moveChains(groupOf, s) && !hasMoved) return;
     contract(arcs, s, groupOf);
+  }
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/mrf_merge.hpp"
+#include "tests/support/best_partition.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,7 +11,7 @@
 namespace rg {
 namespace {
 
-using testing::ElementsAre;
+using ::testing::ElementsAre;
 
 std::vector<uint32_t> solve(uint32_t nodeCount, const std::vector<WeightedArc>& arcs) {
   MergeScratch scratch;
@@ -113,41 +114,6 @@ std::vector<WeightedArc> randomGrid(int side, std::mt19937& random) {
   return arcs;
 }
 
-/// The most weight that any partition of `nodeCount` nodes keeps: all restricted growth strings.
-class Exhaustive {
- public:
-  Exhaustive(uint32_t nodeCount, const std::vector<WeightedArc>& arcs) : weights_(nodeCount) {
-    for (const WeightedArc& arc : arcs) weights_[arc.b].push_back({arc.a, arc.weight});
-    for (uint32_t node = nodeCount; node-- > 0;) {
-      int64_t gain = node + 1 < nodeCount ? bound_[node + 1] : 0;
-      for (const auto& [other, weight] : weights_[node]) gain += std::max<int64_t>(0, weight);
-      bound_[node] = gain;
-    }
-    visit(0, 0, 0);
-  }
-  int64_t best() const { return best_; }
-
- private:
-  void visit(uint32_t node, uint32_t groups, int64_t kept) {
-    if (node == weights_.size()) {
-      best_ = std::max(best_, kept);
-      return;
-    }
-    if (kept + bound_[node] <= best_) return;
-    for (uint32_t group = 0; group <= groups; ++group) {
-      groupOf_[node] = group;
-      int64_t gain = 0;
-      for (const auto& [other, weight] : weights_[node])
-        if (groupOf_[other] == group) gain += weight;
-      visit(node + 1, std::max(groups, group + 1), kept + gain);
-    }
-  }
-  std::vector<std::vector<std::pair<uint32_t, int64_t>>> weights_;
-  std::array<uint32_t, 32> groupOf_{};
-  std::array<int64_t, 33> bound_{};
-  int64_t best_ = 0;
-};
-
 TEST(MrfMerge, ComesCloseToTheOptimumOfRandomGrids) {
   std::mt19937 random(5);
   double gapSum = 0;
@@ -155,15 +121,15 @@ TEST(MrfMerge, ComesCloseToTheOptimumOfRandomGrids) {
   constexpr int kGraphs = 300;
   for (int i = 0; i < kGraphs; ++i) {
     const auto arcs = randomGrid(4, random);
-    const int64_t best = Exhaustive(16, arcs).best();
+    const int64_t best = testing::bestKeptWeight(16, arcs);
     const int64_t kept = keptWeight(arcs, solve(16, arcs));
     ASSERT_LE(kept, best);
     optimal += kept == best;
     gapSum += static_cast<double>(best - kept) / static_cast<double>(best);
   }
   RecordProperty("optimal", optimal);
-  EXPECT_LE(gapSum / kGraphs, 0.002);
-  EXPECT_GE(optimal, kGraphs * 9 / 10);
+  EXPECT_LE(gapSum / kGraphs, 0.0015);
+  EXPECT_GE(optimal, kGraphs * 93 / 100);
 }
 
 TEST(MrfMerge, TheOrderOfTheArcsChangesNothing) {

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "core/merge_chains.hpp"
+
+#include <algorithm>
+#include <array>
+#include <span>
+
+namespace rg {
+namespace {
+
+constexpr size_t kMostFollowers = 5;
+constexpr uint32_t kNone = UINT32_MAX;
+
+class ChainSearch {
+ public:
+  ChainSearch(std::vector<uint32_t>& groupOf, MergeScratch& s) : groupOf_(groupOf), s_(s) {
+    s_.groupSize.assign(groupOf.size(), 0);
+    for (const uint32_t group : groupOf) ++s_.groupSize[group];
+  }
+
+  bool run() {
+    bool hasMoved = false;
+    for (uint32_t node = 0; node < groupOf_.size(); ++node) {
+      if (!listTargets(node)) continue;
+      // A chain may change the group of `node`; what was listed holds only as long as none did.
+      for (size_t i = 0; i < s_.touched.size(); ++i)
+        if (tryChain(node, s_.touched[i])) {
+          hasMoved = true;
+          break;
+        }
+    }
+    return hasMoved;
+  }
+
+ private:
+  [[nodiscard]] std::span<const WeightedArc> arcsOf(uint32_t node) const {
+    return {s_.neighbours.data() + s_.firstArc[node], s_.neighbours.data() + s_.firstArc[node + 1]};
+  }
+
+  /// The groups that `node` could go to, into s_.touched. False if it has no motive to go.
+  bool listTargets(uint32_t node) {
+    s_.touched.clear();
+    bool hasMotive = false;
+    for (const WeightedArc& arc : arcsOf(node)) {
+      const uint32_t group = groupOf_[arc.b];
+      hasMotive |= group == groupOf_[node] ? arc.weight < 0 : arc.weight > 0;
+      if (group != groupOf_[node] &&
+          std::find(s_.touched.begin(), s_.touched.end(), group) == s_.touched.end())
+        s_.touched.push_back(group);
+    }
+    if (!hasMotive) return false;
+    while (empty_ < s_.groupSize.size() && s_.groupSize[empty_] != 0) ++empty_;
+    if (empty_ < s_.groupSize.size()) s_.touched.push_back(empty_);
+    return true;
+  }
+
+  [[nodiscard]] int64_t gainOf(uint32_t node, uint32_t to) const {
+    int64_t gain = 0;
+    for (const WeightedArc& arc : arcsOf(node)) {
+      if (groupOf_[arc.b] == to) gain += arc.weight;
+      if (groupOf_[arc.b] == groupOf_[node]) gain -= arc.weight;
+    }
+    return gain;
+  }
+
+  void move(uint32_t node, uint32_t to) {
+    --s_.groupSize[groupOf_[node]];
+    ++s_.groupSize[to];
+    groupOf_[node] = to;
+  }
+
+  /// The neighbour of the chain that gains most by changing between its two groups.
+  [[nodiscard]] uint32_t bestFollower(size_t length, uint32_t a, uint32_t b, int64_t& gain) const {
+    uint32_t best = kNone;
+    for (size_t i = 0; i < length; ++i)
+      for (const WeightedArc& arc : arcsOf(chain_[i])) {
+        const uint32_t node = arc.b, group = groupOf_[node];
+        if ((group != a && group != b) || isInChain(node, length)) continue;
+        const int64_t nodeGain = gainOf(node, group == a ? b : a);
+        if (best == kNone || nodeGain > gain || (nodeGain == gain && node < best)) {
+          best = node;
+          gain = nodeGain;
+        }
+      }
+    return best;
+  }
+
+  [[nodiscard]] bool isInChain(uint32_t node, size_t length) const {
+    const auto* end = chain_.data() + length;
+    return std::find(chain_.data(), end, node) != end;
+  }
+
+  bool tryChain(uint32_t node, uint32_t to) {
+    const uint32_t from = groupOf_[node];
+    int64_t gain = gainOf(node, to), most = 0;
+    size_t length = 0, kept = 0;
+    while (true) {
+      move(node, groupOf_[node] == from ? to : from);
+      chain_[length++] = node;
+      if (gain > most) {
+        most = gain;
+        kept = length;
+      }
+      if (length == chain_.size()) break;
+      int64_t more = 0;
+      node = bestFollower(length, from, to, more);
+      if (node == kNone) break;
+      gain += more;
+    }
+    for (size_t i = length; i > kept; --i)
+      move(chain_[i - 1], groupOf_[chain_[i - 1]] == from ? to : from);
+    if (kept > 0) empty_ = 0;
+    return kept > 0;
+  }
+
+  std::vector<uint32_t>& groupOf_;
+  MergeScratch& s_;
+  std::array<uint32_t, kMostFollowers + 1> chain_{};
+  uint32_t empty_ = 0;  ///< No group below it is empty.
+};
+
+}  // namespace
+
+bool moveChains(std::vector<uint32_t>& groupOf, MergeScratch& scratch) {
+  return ChainSearch(groupOf, scratch).run();
+}
+
+}  // namespace rg
