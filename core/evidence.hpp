@@ -22,6 +22,8 @@ struct Evidence {
   std::vector<uint16_t> group;    ///< Of each cell: 1 + group, 0 = background. Row by row.
   std::vector<uint8_t> bin;       ///< Colour bin (core/appearance.hpp), where group is not 0.
   std::vector<uint32_t> cellsOf;  ///< Cells of each group.
+  Point camera;                   ///< Its motion since the previous frame, in 1/16 px.
+  bool showsMovers = false;       ///< What stands still is background, whatever it is.
 
   /// The pixel that cell (x, y) shows.
   [[nodiscard]] Point middleOf(int x, int y) const {

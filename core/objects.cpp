@@ -3,6 +3,7 @@
 
 #include "core/contour.hpp"
 #include "core/mrf_merge.hpp"
+#include "core/own_motion.hpp"
 #include "core/pixel.hpp"
 #include "core/pool.hpp"
 #include "core/region_owners.hpp"
@@ -16,6 +17,7 @@ namespace rg {
 namespace {
 
 constexpr int64_t kNominalStepNs = 40'000'000;
+constexpr int64_t kCut = int64_t{1} << 40;  // More than any border holds together.
 constexpr int64_t kLongestStepNs = 10'000'000'000;
 
 MergeWeights weightsOf(const ObjectParams& params) {
@@ -45,7 +47,9 @@ class CpuObjectStage final : public ObjectStage {
                     Objects& objects);
   void expectLabels(const Graph& graph, int64_t stepNs, Objects& objects);
   void startGroups(std::vector<uint32_t>& groupOf) const;
-  void markBackground(const Motion& motion, const ObjectParams& params, Objects& objects);
+  void followCamera(const Motion& motion, const ObjectParams& params, Objects& objects);
+  void cutAroundMovers(std::vector<ArcEnergy>& energies, const Graph& graph) const;
+  void markBackground(const Graph& graph, const Objects& objects);
   void paint(const Graph& graph, Objects& objects);
   void describe(const Graph& graph, bool hasTime, Objects& objects);
   void nameRegions(const Graph& graph, Objects& objects);
@@ -61,6 +65,9 @@ class CpuObjectStage final : public ObjectStage {
   RegionOwnerScratch ownerScratch_;
   std::vector<Group> groups_;
   std::vector<uint8_t> isBackground_;
+  std::shared_ptr<const Picture> previous_;
+  OwnMotionScratch ownMotionScratch_;
+  std::vector<uint8_t> movesOtherwise_;  ///< Of each region, under Scope::Frame.
   Evidence evidence_;
   struct Sums {
     uint64_t count = 0, x = 0, y = 0, red = 0, green = 0, blue = 0;
@@ -86,6 +93,7 @@ int64_t CpuObjectStage::stepTo(FrameTime time) {
 void CpuObjectStage::reset(Reset what) {
   if (what == Reset::Gap) return;  // The next frame's time tells how far to predict.
   tracker_.reset(what == Reset::Stream);
+  previous_.reset();
   hasLast_ = false;
 }
 
@@ -96,7 +104,9 @@ void CpuObjectStage::expectLabels(const Graph& graph, int64_t stepNs, Objects& o
   objects.regionExpected.assign(graph.regions.size(), 0);
   if (tracker_.owner().empty() || evidence_.frame != graph.size) return;
   shifts_.clear();
-  for (const Track& track : tracks) shifts_.push_back(tracker_.expectedShift(track, stepNs));
+  const Point camera{objects.cameraDx, objects.cameraDy};
+  for (const Track& track : tracks)
+    shifts_.push_back(tracker_.expectedShift(track, camera, stepNs));
   findRegionOwners(*graph.labels, evidence_, tracker_.owner(), shifts_, ownerScratch_, expected_);
   for (size_t r = 0; r < expected_.size(); ++r)
     if (expected_[r] != 0) objects.regionExpected[r] = tracks[expected_[r] - 1].id;
@@ -114,33 +124,49 @@ void CpuObjectStage::mergeRegions(const Motion& motion, const ObjectParams& para
                                   Objects& objects) {
   const Graph& graph = *motion.graph;
   std::vector<uint32_t>& groupOf = objects.regionGroup;
+  followCamera(motion, params, objects);
   expectLabels(graph, stepNs, objects);
   weighArcs(motion, expected_, weightsOf(params), objects.arcs);
+  cutAroundMovers(objects.arcs, graph);
   listArcs(graph, objects.arcs, arcs_);
   startGroups(groupOf);
   minimise(static_cast<uint32_t>(graph.regions.size()), arcs_, mergeScratch_, groupOf);
   describeGroups(motion, groupOf, groups_);
-  markBackground(motion, params, objects);
+  markBackground(graph, objects);
 }
 
-/// Under Scope::Frame the background is the largest group and all that move as the camera does.
-void CpuObjectStage::markBackground(const Motion& motion, const ObjectParams& params,
-                                    Objects& objects) {
-  isBackground_.assign(groups_.size(), 0);
+/// Under Scope::Frame the motion that most agree on is the camera's, and what moves otherwise is
+/// told from the background before regions are merged: a mover that is small against the frame
+/// would be outweighed by its border.
+void CpuObjectStage::followCamera(const Motion& motion, const ObjectParams& params,
+                                  Objects& objects) {
+  const Graph& graph = *motion.graph;
+  const std::shared_ptr<const Picture> previous = std::move(previous_);
+  previous_ = graph.labels->picture;
+  movesOtherwise_.assign(graph.regions.size(), 0);
   objects.cameraDx = objects.cameraDy = 0;
-  if (motion.graph->labels->scope != Scope::Frame || groups_.empty()) return;
+  if (graph.labels->scope != Scope::Frame || motion.status == Status::Skipped) return;
   const RegionMotion camera = dominantMotion(motion, voteScratch_);
   objects.cameraDx = camera.dx;
   objects.cameraDy = camera.dy;
-  const int64_t reach = weightsOf(params).motionThreshold;
-  size_t largest = 0;
-  for (size_t g = 0; g < groups_.size(); ++g) {
-    const int64_t dx = groups_[g].dx - camera.dx, dy = groups_[g].dy - camera.dy;
-    isBackground_[g] =
-        groups_[g].reliability < kFullReliability / 8 || dx * dx + dy * dy <= reach * reach;
-    if (groups_[g].areaPx > groups_[largest].areaPx) largest = g;
-  }
-  isBackground_[largest] = 1;
+  if (previous && previous_ && previous->size() == previous_->size())
+    findOwnMotion(motion, previous->luma(), camera, weightsOf(params).motionThreshold,
+                  ownMotionScratch_, movesOtherwise_);
+}
+
+void CpuObjectStage::cutAroundMovers(std::vector<ArcEnergy>& energies, const Graph& graph) const {
+  for (size_t i = 0; i < energies.size(); ++i)
+    if (movesOtherwise_[graph.arcs[i].a - 1u] != movesOtherwise_[graph.arcs[i].b - 1u])
+      energies[i].motion =
+          std::max(energies[i].motion, energies[i].weight() + energies[i].motion + kCut);
+}
+
+/// Under Scope::Frame the background is all that moves as the camera does.
+void CpuObjectStage::markBackground(const Graph& graph, const Objects& objects) {
+  isBackground_.assign(groups_.size(), 0);
+  if (graph.labels->scope != Scope::Frame) return;
+  for (size_t r = 0; r < movesOtherwise_.size(); ++r)
+    if (movesOtherwise_[r] == 0) isBackground_[objects.regionGroup[r]] = 1;
 }
 
 /// Gives each pixel to an object: by its cell, and where that has no owner, not at all.
@@ -251,6 +277,8 @@ Result<std::shared_ptr<const Objects>> CpuObjectStage::process(std::shared_ptr<c
   }
   mergeRegions(*motion, params, stepNs, *objects);
   gather(*graph, objects->regionGroup, isBackground_, evidence_);
+  evidence_.camera = {objects->cameraDx, objects->cameraDy};
+  evidence_.showsMovers = graph->labels->scope == Scope::Frame;
   tracker_.update(evidence_, groups_, stepNs, tracking);
   paint(*graph, *objects);
   describe(*graph, time.isKnown, *objects);

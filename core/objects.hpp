@@ -35,7 +35,7 @@ struct Object {
   uint32_t areaPx = 0;    ///< Pixels that belong to it in this frame; 0 while it is hidden.
   int32_t centroidX = 0;  ///< 1/16 px.
   int32_t centroidY = 0;
-  int32_t speedX = 0;  ///< 1/16 px per second; 0 unless hasSpeed.
+  int32_t speedX = 0;  ///< Over the ground, in 1/16 px per second; 0 unless hasSpeed.
   int32_t speedY = 0;
   bool hasSpeed = false;          ///< False where the stream has no time.
   uint32_t ageFrames = 0;         ///< Frames since it was first seen, this one included.

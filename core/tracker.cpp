@@ -58,10 +58,17 @@ Point Tracker::stepOf(const Track& track, int64_t stepNs) {
   return {step(track.speedX), step(track.speedY)};
 }
 
-Point Tracker::expectedShift(const Track& track, int64_t stepNs) {
+Point Tracker::expectedShift(const Track& track, Point camera, int64_t stepNs) {
   const Point step = stepOf(track, stepNs);
-  const auto px = [](int v) { return static_cast<int>(divideRounded(v, kUnit)); };
-  return {px(step.x), px(step.y)};
+  const auto px = [](int64_t v) { return static_cast<int>(divideRounded(v, kUnit)); };
+  return {px(int64_t{step.x} + camera.x), px(int64_t{step.y} + camera.y)};
+}
+
+/// All of a track's places are places in the picture, which moves over the ground.
+void Tracker::moveWithCamera(Track& track, Point camera) {
+  for (int32_t* x : {&track.x, &track.stillX, &track.learntX}) *x = toInt(int64_t{*x} + camera.x);
+  for (int32_t* y : {&track.foot, &track.stillFoot, &track.learntFoot})
+    *y = toInt(int64_t{*y} + camera.y);
 }
 
 void Tracker::advance(Track& track, int64_t stepNs) const {
@@ -96,7 +103,9 @@ void Tracker::update(const Evidence& evidence, std::span<const Group> groups, in
     scale_.reset(frame_);
   }
   stepPx_ = evidence.stepPx;
+  showsMovers_ = evidence.showsMovers;
   for (Track& track : tracks_) {
+    moveWithCamera(track, evidence.camera);
     advance(track, stepNs);
     fitSizeToScene(track);
   }

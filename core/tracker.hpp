@@ -27,7 +27,7 @@ struct Track {
   uint64_t id = 0;
   ObjectState state = ObjectState::New;
   int32_t x = 0, foot = 0;
-  int32_t speedX = 0, speedY = 0;  ///< 1/16 px per second.
+  int32_t speedX = 0, speedY = 0;  ///< Over the ground, in 1/16 px per second.
   Extent size;
   Look look;
   Colour colour;
@@ -48,7 +48,7 @@ struct Track {
   int64_t doubleNs = 0;   ///< Since it looks like a part of another track.
   bool isOver = false;
   bool hasMoved = false;
-  bool isFromBorder = false;  ///< First seen where things come into the picture.
+  bool isFromBorder = false;  ///< First seen where things come into the picture, or moving.
   bool isConfirmed = false;
 
   [[nodiscard]] Box box() const;  ///< In pixels.
@@ -111,13 +111,14 @@ class Tracker {
   /// Of each cell of the evidence: 1 + index of the track, 0 = none.
   [[nodiscard]] const std::vector<uint16_t>& owner() const { return owner_; }
   [[nodiscard]] const std::vector<Event>& events() const { return events_; }
-  /// How far a track will move in the next `stepNs`, in pixels.
-  [[nodiscard]] static Point expectedShift(const Track& track, int64_t stepNs);
+  /// How far a track will move in the next `stepNs`, in pixels; camera: in 1/16 px meanwhile.
+  [[nodiscard]] static Point expectedShift(const Track& track, Point camera, int64_t stepNs);
   void remember(size_t index, Colour colour) { tracks_[index].colour = colour; }
   [[nodiscard]] const SceneScale& scale() const { return scale_; }
 
  private:
   [[nodiscard]] static Point stepOf(const Track& track, int64_t stepNs);
+  static void moveWithCamera(Track& track, Point camera);
   void advance(Track& track, int64_t stepNs) const;
   void lookForTracks(const Evidence& evidence);
   void giveGroups(const Evidence& evidence, std::span<const Group> groups);
@@ -153,6 +154,7 @@ class Tracker {
   uint64_t nextId_ = 1;
   Size frame_;
   int stepPx_ = 1;
+  bool showsMovers_ = false;
 
   std::vector<Sighting> sightings_;  ///< Of tracks_.
   std::vector<FitTask> tasks_;

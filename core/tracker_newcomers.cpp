@@ -240,7 +240,7 @@ void Tracker::begin(const Newcomer& newcomer) {
   track.stillX = track.learntX = track.x;
   track.stillFoot = track.learntFoot = track.foot;
   track.look = newcomer.appearance;
-  track.isFromBorder = newcomer.isAtBorder;
+  track.isFromBorder = newcomer.isAtBorder || showsMovers_;
   track.isSeen = true;
   track.hits = 1;
   track.ageFrames = 1;
