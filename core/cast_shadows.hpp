@@ -5,10 +5,8 @@
 // Determinism: integers; sums over components (core/components.hpp).
 #pragma once
 
+#include "core/bit_mask.hpp"
 #include "core/components.hpp"
-#include "core/executor.hpp"
-#include "core/image.hpp"
-#include "core/mask_cleaning.hpp"
 
 #include <cstdint>
 #include <vector>
@@ -28,11 +26,9 @@ struct CastShadowScratch {
   std::vector<DarkPart> dark;
   std::vector<uint32_t> darkOf;  ///< Darkened pixels of each object.
   std::vector<uint8_t> isChosen;
-  CleaningScratch cleaning;
 };
 
-/// Clears in `dark` (0 or 255, a subset of `mask`) what is no cast shadow.
-void keepCastShadows(ImageView<const uint8_t> mask, ImageView<uint8_t> dark,
-                     CastShadowScratch& scratch);
+/// Clears in `dark`, a subset of `mask`, what is no cast shadow.
+void keepCastShadows(const BitMask& mask, BitMask& dark, CastShadowScratch& scratch);
 
 }  // namespace rg

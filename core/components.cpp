@@ -2,29 +2,20 @@
 #include "core/components.hpp"
 
 #include <algorithm>
-#include <cstring>
 
 namespace rg {
 namespace {
 
-constexpr uint64_t kOnes = 0x0101010101010101ull;
-
-/// First column from x on whose value equals (or differs from) `value`; eight columns at a time
-/// while nothing changes.
-template <bool equal>
-int findColumn(const uint8_t* row, int x, int width, uint8_t value) {
-  const uint64_t pattern = kOnes * value;
-  while (x + 8 <= width) {
-    uint64_t word;
-    std::memcpy(&word, row + x, 8);
-    word ^= pattern;
-    // Equal bytes are zero now; the classic test has no false negatives.
-    const bool mayStop = equal ? ((word - kOnes) & ~word & (kOnes << 7)) != 0 : word != 0;
-    if (mayStop) break;
-    x += 8;
+/// First column from x on whose bit differs from those of `other`, which is all ones or zero.
+int findColumn(const uint64_t* row, int x, int width, uint64_t other) {
+  if (x >= width) return width;
+  int word = x / kWordColumns;
+  uint64_t bits = (row[word] ^ other) & (~uint64_t{0} << (x % kWordColumns));
+  while (bits == 0) {
+    if (++word * kWordColumns >= width) return width;
+    bits = row[word] ^ other;
   }
-  while (x < width && (row[x] == value) != equal) ++x;
-  return x;
+  return std::min(width, word * kWordColumns + std::countr_zero(bits));
 }
 
 uint32_t findRoot(std::vector<uint32_t>& parents, uint32_t run) {
@@ -57,18 +48,18 @@ void joinRows(Components& found, size_t above, size_t current, size_t end, int r
   }
 }
 
-void collectRuns(ImageView<const uint8_t> mask, uint8_t value, Connectivity connectivity,
-                 Components& found) {
+void collectRuns(const BitMask& mask, bool value, Connectivity connectivity, Components& found) {
+  const uint64_t unwanted = value ? 0 : ~uint64_t{0};
   const int reach = connectivity == Connectivity::Eight ? 1 : 0;
   size_t above = 0;
   for (int y = 0; y < mask.height(); ++y) {
-    const uint8_t* row = mask.row(y);
+    const uint64_t* row = mask.row(y);
     const size_t current = found.runs.size();
-    for (int x = findColumn<true>(row, 0, mask.width(), value); x < mask.width();) {
-      const int end = findColumn<false>(row, x, mask.width(), value);
+    for (int x = findColumn(row, 0, mask.width(), unwanted); x < mask.width();) {
+      const int end = findColumn(row, x, mask.width(), ~unwanted);
       found.parents.push_back(static_cast<uint32_t>(found.runs.size()));
       found.runs.push_back({y, x, end, 0});
-      x = findColumn<true>(row, end, mask.width(), value);
+      x = findColumn(row, end, mask.width(), unwanted);
     }
     joinRows(found, above, current, found.runs.size(), reach);
     above = current;
@@ -77,8 +68,7 @@ void collectRuns(ImageView<const uint8_t> mask, uint8_t value, Connectivity conn
 
 }  // namespace
 
-void findComponents(ImageView<const uint8_t> mask, uint8_t value, Connectivity connectivity,
-                    Components& found) {
+void findComponents(const BitMask& mask, bool value, Connectivity connectivity, Components& found) {
   found.runs.clear();
   found.parents.clear();
   found.list.clear();
@@ -99,6 +89,18 @@ void findComponents(ImageView<const uint8_t> mask, uint8_t value, Connectivity c
     component.box = unite(component.box, box);
     component.areaPx += static_cast<uint32_t>(run.end - run.begin);
   }
+}
+
+void findComponents(ImageView<const uint8_t> mask, uint8_t value, Connectivity connectivity,
+                    Components& found) {
+  packEqual(mask, value, found.bits);
+  findComponents(found.bits, true, connectivity, found);
+}
+
+void paintComponents(const Components& found, std::span<const uint8_t> isChosen, bool value,
+                     BitMask& mask) {
+  for (const Run& run : found.runs)
+    if (isChosen[run.component] != 0) setColumns(mask.row(run.y), run.begin, run.end, value);
 }
 
 void paintComponents(const Components& found, std::span<const uint8_t> isChosen, uint8_t value,

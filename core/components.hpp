@@ -6,6 +6,7 @@
 // by row and column. Memory and time: O(pixels + runs), whatever the picture.
 #pragma once
 
+#include "core/bit_mask.hpp"
 #include "core/geometry.hpp"
 #include "core/image.hpp"
 
@@ -36,13 +37,18 @@ struct Components {
   std::vector<Run> runs;
   std::vector<Component> list;
   std::vector<uint32_t> parents;  ///< Scratch.
+  BitMask bits;                   ///< Scratch.
 };
 
+/// Finds the components of the pixels that are set, or of those that are not.
+void findComponents(const BitMask& mask, bool value, Connectivity connectivity, Components& found);
 /// Finds the components of the pixels that equal `value`.
 void findComponents(ImageView<const uint8_t> mask, uint8_t value, Connectivity connectivity,
                     Components& found);
 
 /// Writes `value` into the pixels of every component that `isChosen[component]` is not 0 for.
+void paintComponents(const Components& found, std::span<const uint8_t> isChosen, bool value,
+                     BitMask& mask);
 void paintComponents(const Components& found, std::span<const uint8_t> isChosen, uint8_t value,
                      ImageView<uint8_t> mask);
 

@@ -2,6 +2,7 @@
 #include "core/consensus_background.hpp"
 
 #include "core/pixel.hpp"
+#include "core/simd/consensus_rows.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -9,7 +10,9 @@
 namespace rg {
 namespace {
 
-constexpr int kBlock = 256;  ///< Columns at a time, so that distances stay in the first cache.
+constexpr uint32_t kNoisePeriod = 16, kFirstNoisePeriod = 4;  ///< Frames from turn to turn.
+constexpr uint8_t kCalmPeriod = 8;                            ///< Also what unrest loses a turn.
+constexpr int kFlip = 16;                                     ///< What it gains by a flip.
 
 template <class Index>
 size_t at(Index i) {
@@ -20,75 +23,8 @@ int sampleRow(int channels, int y, int sample, int channel) {
   return (y * kSamples + sample) * channels + channel;
 }
 
-void smoothRow(ImageView<const uint8_t> in, int y, uint8_t* out) {
-  const uint8_t* above = in.row(std::max(0, y - 1));
-  const uint8_t* here = in.row(y);
-  const uint8_t* below = in.row(std::min(in.height() - 1, y + 1));
-  std::array<uint16_t, kBlock + 2> sums;
-  for (int begin = 0; begin < in.width(); begin += kBlock) {
-    const int count = std::min(kBlock, in.width() - begin);
-    const auto sum = [&](int x) {
-      x = std::clamp(x, 0, in.width() - 1);
-      return static_cast<uint16_t>(above[x] + 2 * here[x] + below[x]);
-    };
-    sums[0] = sum(begin - 1);
-    for (int i = 0; i < count; ++i) {
-      const int x = begin + i;
-      sums[at(i + 1)] = static_cast<uint16_t>(above[x] + 2 * here[x] + below[x]);
-    }
-    sums[at(count + 1)] = sum(begin + count);
-    for (size_t i = 0; i < at(count); ++i)
-      out[at(begin) + i] = static_cast<uint8_t>((sums[i] + 2 * sums[i + 1] + sums[i + 2] + 8) >> 4);
-  }
-}
-
-constexpr uint8_t apart(uint8_t a, uint8_t b) {
-  return static_cast<uint8_t>(std::max(a, b) - std::min(a, b));
-}
-
-struct BlockDistances {
-  std::array<uint8_t, kBlock> nearest, second, distance;
-};
-
-void addSample(const uint8_t* const* pixels, const uint8_t* const* samples, int channels,
-               size_t count, BlockDistances& block) {
-  for (size_t i = 0; i < count; ++i) block.distance[i] = apart(pixels[0][i], samples[0][i]);
-  for (int c = 1; c < channels; ++c)
-    for (size_t i = 0; i < count; ++i)
-      block.distance[i] = std::max(block.distance[i], apart(pixels[c][i], samples[c][i]));
-  for (size_t i = 0; i < count; ++i) {
-    const uint8_t d = block.distance[i];
-    block.second[i] = std::min(block.second[i], std::max(block.nearest[i], d));
-    block.nearest[i] = std::min(block.nearest[i], d);
-  }
-}
-
-void measureBlock(const SmoothPicture& picture, const ConsensusBackground& model, int y, int x,
-                  Distances& out) {
-  const size_t count = at(std::min(kBlock, picture.size().width - x));
-  BlockDistances block;
-  block.nearest.fill(255);
-  block.second.fill(255);
-  std::array<const uint8_t*, 3> pixels{}, samples{};
-  for (int c = 0; c < model.channels; ++c) pixels[at(c)] = picture.planes[at(c)].row(y) + x;
-  for (int k = 0; k < kSamples; ++k) {
-    for (int c = 0; c < model.channels; ++c)
-      samples[at(c)] = model.samples.row(sampleRow(model.channels, y, k, c)) + x;
-    addSample(pixels.data(), samples.data(), model.channels, count, block);
-  }
-  std::copy_n(block.nearest.begin(), count, out.nearest.row(y) + x);
-  std::copy_n(block.second.begin(), count, out.second.row(y) + x);
-}
-
 constexpr std::array<Point, 8> kNeighbours{
     {{-1, -1}, {0, -1}, {1, -1}, {-1, 0}, {1, 0}, {-1, 1}, {0, 1}, {1, 1}}};
-
-/// Picks one of the eight neighbours; at the frame's border it may be the pixel itself.
-Point neighbour(Point p, uint32_t choice, Size size) {
-  const Point offset = kNeighbours[choice % 8];
-  return {std::clamp(p.x + offset.x, 0, size.width - 1),
-          std::clamp(p.y + offset.y, 0, size.height - 1)};
-}
 
 /// The first two samples of a row are the picture itself, the others its eight neighbours in turn.
 void fillSample(const SmoothPicture& picture, int y, int sample, ConsensusBackground& model) {
@@ -105,47 +41,133 @@ void fillSample(const SmoothPicture& picture, int y, int sample, ConsensusBackgr
   }
 }
 
-void remember(const SmoothPicture& picture, Point from, Point to, uint32_t sample,
-              ConsensusBackground& model) {
-  for (int c = 0; c < model.channels; ++c)
-    model.samples.row(sampleRow(model.channels, to.y, static_cast<int>(sample), c))[to.x] =
-        picture.planes[at(c)].row(from.y)[from.x];
+RowsAround rowsAround(ImageView<const uint8_t> plane, int y) {
+  return {plane.row(std::max(0, y - 1)), plane.row(y),
+          plane.row(std::min(plane.height() - 1, y + 1)), plane.width()};
 }
 
-void learnRow(const SmoothPicture& picture, const Verdicts& verdicts, const ConsensusRate& rate,
-              int y, ConsensusBackground& model) {
-  const Size size = picture.size();
-  const uint8_t* foreground = verdicts.foreground.row(y);
-  const uint32_t limit = 65536u / static_cast<uint32_t>(rate.interval);
-  for (int x = 0; x < size.width; ++x) {
-    if (foreground[x] != 0) continue;
-    const uint32_t hash = mixHash(static_cast<uint32_t>(x), static_cast<uint32_t>(y), rate.frame);
+ModelRow modelRow(const SmoothPicture& picture, const ConsensusBackground& model, int y) {
+  ModelRow row{};
+  for (int c = 0; c < model.channels; ++c) row.pixels[at(c)] = picture.planes[at(c)].row(y);
+  row.samples = model.samples.row(sampleRow(model.channels, y, 0, 0));
+  row.sampleStride = model.samples.view().strideBytes;
+  row.channels = model.channels;
+  row.sampleCount = kSamples;
+  row.width = picture.size().width;
+  return row;
+}
+
+/// The columns of one word, `shift` columns to the right of it; 0 beyond the row's ends.
+uint64_t shifted(const uint64_t* row, int word, int words, int shift) {
+  if (shift < 0) return row[word] << 1 | (word > 0 ? row[word - 1] >> 63 : 0);
+  if (shift > 0) return row[word] >> 1 | (word + 1 < words ? row[word + 1] << 63 : 0);
+  return row[word];
+}
+
+/// One frame's learning of single words of rows.
+class Learner {
+ public:
+  Learner(const SmoothPicture& picture, const BitMask& foreground, const ConsensusRate& rate,
+          ConsensusBackground& model)
+      : picture_(picture), foreground_(foreground), rate_(rate), model_(model) {}
+
+  void learnWord(int word, int y) {
+    const uint64_t background = foreground_.columnsOf(word) & ~foreground_.row(y)[word];
+    if (background == 0) return;
+    draw(word, y, 0, background);
     // Restless pixels see more colours and must learn them faster.
-    const uint32_t chance = limit << (model.unrest.row(y)[x] >> 7);
-    if ((hash & 0xFFFF) < chance) remember(picture, {x, y}, {x, y}, (hash >> 16) % kSamples, model);
+    draw(word, y, 1, background);
+  }
+
+ private:
+  void draw(int word, int y, uint32_t round, uint64_t background) {
+    const uint32_t limit = 65536u / static_cast<uint32_t>(rate_.interval);
+    const uint32_t hash =
+        mixHash(static_cast<uint32_t>(word), static_cast<uint32_t>(y), 2 * rate_.frame + round);
     const uint32_t other = std::rotl(hash, 11) * 0x2C1B3C6Du;
-    if ((other & 0xFFFF) < chance) {
-      const Point from = neighbour({x, y}, other >> 16, size);
-      if (verdicts.foreground.at(from.x, from.y) == 0)
-        remember(picture, from, {x, y}, (other >> 20) % kSamples, model);
+    const bool isOwn = (hash & 0xFFFF) < limit, isOthers = (other & 0xFFFF) < limit;
+    if (!isOwn && !isOthers) return;
+    if (round > 0) background &= restlessColumns(word, y);
+    if (isOwn) remember(background, {word, y}, {}, (hash >> 16) % kSamples);
+    if (isOthers) rememberNeighbour(background, {word, y}, other >> 16);
+  }
+
+  uint64_t restlessColumns(int word, int y) const {
+    const uint8_t* unrest = model_.unrest.row(y) + word * kWordColumns;
+    uint64_t columns = 0;
+    for (int i = 0; i < kWordColumns; ++i) columns |= uint64_t{unrest[i]} >> 7 << i;
+    return columns;
+  }
+
+  /// The same of the eight neighbours for all columns; foreground and what is outside teach
+  /// nothing.
+  void rememberNeighbour(uint64_t columns, Point at, uint32_t choice) {
+    const Size size = picture_.size();
+    const Point offset = kNeighbours[choice % 8];
+    const int y = at.y + offset.y, begin = at.x * kWordColumns;
+    if (y < 0 || y >= size.height) return;
+    columns &= ~shifted(foreground_.row(y), at.x, foreground_.wordsPerRow(), offset.x);
+    if (offset.x < 0 && begin == 0) columns &= ~uint64_t{1};
+    if (offset.x > 0 && begin + kWordColumns >= size.width)
+      columns &= ~(uint64_t{1} << (size.width - 1 - begin));
+    remember(columns, at, offset, (choice >> 4) % kSamples);
+  }
+
+  void remember(uint64_t columns, Point word, Point offset, uint32_t sample) {
+    const int begin = word.x * kWordColumns;
+    for (int c = 0; c < model_.channels; ++c) {
+      const uint8_t* from = picture_.planes[at(c)].row(word.y + offset.y) + begin + offset.x;
+      const int row = sampleRow(model_.channels, word.y, static_cast<int>(sample), c);
+      uint8_t* to = model_.samples.row(row) + begin;
+      if (columns == ~uint64_t{0})
+        std::memcpy(to, from, kWordColumns);
+      else
+        forSetBits(columns, 0, [&](int i) { to[i] = from[i]; });
     }
   }
+
+  const SmoothPicture& picture_;
+  const BitMask& foreground_;
+  const ConsensusRate& rate_;
+  ConsensusBackground& model_;
+};
+
+void raiseUnrest(const LearntFrame& seen, int y, ConsensusBackground& model) {
+  uint8_t* unrest = model.unrest.row(y);
+  for (int word = 0; word < seen.raw.wordsPerRow(); ++word) {
+    const uint64_t flips = seen.raw.row(y)[word] ^ seen.previousRaw.row(y)[word];
+    forSetBits(flips & ~seen.foreground.row(y)[word], word * kWordColumns,
+               [&](int x) { unrest[x] = static_cast<uint8_t>(std::min(255, unrest[x] + kFlip)); });
+  }
 }
 
-void followRow(const Verdicts& verdicts, const Distances& distances, bool isFirst, int y,
-               ConsensusBackground& model) {
-  const uint8_t *foreground = verdicts.foreground.row(y), *raw = verdicts.raw.row(y);
-  const uint8_t* before = verdicts.previousRaw.row(y);
-  const uint8_t* nearest = distances.nearest.row(y);
-  uint8_t *noise = model.noise.row(y), *unrest = model.unrest.row(y);
-  for (int x = 0; x < verdicts.foreground.width(); ++x) {
-    if (foreground[x] != 0) continue;
-    const int seen = std::min(nearest[x], uint8_t{31}) * 8;
-    noise[x] =
-        static_cast<uint8_t>(noise[x] + ((seen - noise[x] + (seen > noise[x] ? 31 : 0)) >> 5));
-    const int flip = !isFirst && raw[x] != before[x] ? 16 : -1;
-    unrest[x] = static_cast<uint8_t>(std::clamp(unrest[x] + flip, 0, 255));
+void calmUnrest(const BitMask& foreground, int y, ConsensusBackground& model) {
+  for (int word = 0; word < foreground.wordsPerRow(); ++word) {
+    uint8_t* unrest = model.unrest.row(y) + word * kWordColumns;
+    const auto calm = [&](int x) {
+      unrest[x] = static_cast<uint8_t>(std::max(unrest[x], kCalmPeriod) - kCalmPeriod);
+    };
+    const uint64_t kept = foreground.row(y)[word];
+    if (kept == 0)
+      for (int x = 0; x < kWordColumns; ++x) calm(x);
+    else
+      forSetBits(~kept, 0, calm);
   }
+}
+
+struct Columns {
+  int begin, end;
+};
+
+void paintColumns(const ConsensusBackground& model, int y, int channel, Columns columns,
+                  std::array<Image<uint8_t>, 3>& planes) {
+  constexpr int kShown = 4;
+  std::array<const uint8_t*, kShown> rows{};
+  for (int k = 0; k < kShown; ++k)
+    rows[at(k)] = model.samples.row(sampleRow(model.channels, y, k * kSamples / kShown, channel));
+  uint8_t* out = planes[at(channel)].row(y);
+  for (int x = columns.begin; x < columns.end; ++x)
+    out[x] = static_cast<uint8_t>((rows[0][x] + rows[1][x] + rows[2][x] + rows[3][x] + 2) >> 2);
 }
 
 }  // namespace
@@ -156,7 +178,8 @@ void smooth(const Picture& picture, const Executor& executor, SmoothPicture& out
   for (int c = 0; c < out.channels; ++c) out.planes[at(c)].resize(picture.size());
   executor.forRows(picture.size().height, [&](int first, int last) {
     for (int y = first; y < last; ++y)
-      for (int c = 0; c < out.channels; ++c) smoothRow(planes[at(c)], y, out.planes[at(c)].row(y));
+      for (int c = 0; c < out.channels; ++c)
+        simd::smoothRow(rowsAround(planes[at(c)], y), out.planes[at(c)].row(y));
   });
 }
 
@@ -183,70 +206,72 @@ void fillFrom(const SmoothPicture& picture, const Executor& executor, ConsensusB
   });
 }
 
-void measure(const SmoothPicture& picture, const ConsensusBackground& model,
-             const Executor& executor, Distances& out) {
-  out.nearest.resize(picture.size());
-  out.second.resize(picture.size());
-  executor.forRows(picture.size().height, [&](int first, int last) {
-    for (int y = first; y < last; ++y)
-      for (int x = 0; x < picture.size().width; x += kBlock)
-        measureBlock(picture, model, y, x, out);
-  });
-}
-
-void findRadii(const SmoothPicture& picture, const ConsensusBackground& model,
-               const Tolerance& tolerance, const Executor& executor, Image<uint8_t>& radii) {
-  radii.resize(model.noise.size());
-  executor.forRows(radii.height(), [&](int first, int last) {
+void judge(const SmoothPicture& picture, const ConsensusBackground& model,
+           const Tolerance& tolerance, const Executor& executor, Verdicts& out) {
+  const Size size = picture.size();
+  out.raw.resize(size);
+  out.strong.resize(size);
+  out.radii.resize(size);
+  executor.forRows(size.height, [&](int first, int last) {
     for (int y = first; y < last; ++y) {
-      const uint8_t *noise = model.noise.row(y), *unrest = model.unrest.row(y);
-      const uint8_t* brightness = picture.planes[0].row(y);
-      uint8_t* out = radii.row(y);
-      for (int x = 0; x < radii.width(); ++x) {
-        const int usual = tolerance.least + (brightness[x] * tolerance.brightness >> 8);
-        // Noise is in eighths: twice its mean.
-        out[x] = static_cast<uint8_t>(std::min(255, usual + (noise[x] >> 2) + (unrest[x] >> 4)));
-      }
+      const RadiusRow radius{model.noise.row(y), model.unrest.row(y),
+                             static_cast<uint8_t>(tolerance.least),
+                             static_cast<uint8_t>(tolerance.brightness)};
+      simd::judgeRow(modelRow(picture, model, y), radius,
+                     {out.radii.row(y), out.raw.row(y), out.strong.row(y)});
     }
   });
 }
 
-void learn(const SmoothPicture& picture, const Verdicts& verdicts, const Distances& distances,
-           const ConsensusRate& rate, const Executor& executor, ConsensusBackground& model) {
+void learn(const SmoothPicture& picture, const LearntFrame& seen, const ConsensusRate& rate,
+           const Executor& executor, ConsensusBackground& model) {
+  const uint32_t noisePeriod = rate.isFirst ? kFirstNoisePeriod : kNoisePeriod;
   executor.forRows(picture.size().height, [&](int first, int last) {
+    Learner learner(picture, seen.foreground, rate, model);
     for (int y = first; y < last; ++y) {
-      followRow(verdicts, distances, rate.isFirst, y, model);
-      learnRow(picture, verdicts, rate, y, model);
+      const uint32_t turn = static_cast<uint32_t>(y) + rate.frame;
+      const ModelRow row = modelRow(picture, model, y);
+      if (turn % noisePeriod == 0)
+        simd::followNoiseRow(row, {model.noise.row(y), seen.foreground.row(y)});
+      if (!rate.isFirst) raiseUnrest(seen, y, model);
+      if (turn % kCalmPeriod == 0) calmUnrest(seen.foreground, y, model);
+      for (int word = 0; word < seen.foreground.wordsPerRow(); ++word) learner.learnWord(word, y);
     }
   });
 }
 
-void replaceWhere(ImageView<const uint8_t> places, const SmoothPicture& picture,
-                  const Executor& executor, ConsensusBackground& model) {
+void replaceWhere(const BitMask& places, const SmoothPicture& picture, const Executor& executor,
+                  ConsensusBackground& model) {
   executor.forRows(picture.size().height, [&](int first, int last) {
-    for (int y = first; y < last; ++y)
-      for (int x = 0; x < picture.size().width; ++x) {
-        if (places.row(y)[x] == 0) continue;
-        for (uint32_t k = 0; k < kSamples; ++k) remember(picture, {x, y}, {x, y}, k, model);
-      }
+    forSetPixels(places, first, last, [&](int x, int y) {
+      for (int k = 0; k < kSamples; ++k)
+        for (int c = 0; c < model.channels; ++c)
+          model.samples.row(sampleRow(model.channels, y, k, c))[x] =
+              picture.planes[at(c)].row(y)[x];
+    });
   });
 }
 
 void paintModel(const ConsensusBackground& model, const Executor& executor,
                 std::array<Image<uint8_t>, 3>& planes) {
-  constexpr int kShown = 4;
   const Size size = model.noise.size();
   for (int c = 0; c < model.channels; ++c) planes[at(c)].resize(size);
   executor.forRows(size.height, [&](int first, int last) {
     for (int y = first; y < last; ++y)
-      for (int c = 0; c < model.channels; ++c) {
-        std::array<const uint8_t*, kShown> rows{};
-        for (int k = 0; k < kShown; ++k)
-          rows[at(k)] = model.samples.row(sampleRow(model.channels, y, k * kSamples / kShown, c));
-        uint8_t* out = planes[at(c)].row(y);
-        for (int x = 0; x < size.width; ++x)
-          out[x] =
-              static_cast<uint8_t>((rows[0][x] + rows[1][x] + rows[2][x] + rows[3][x] + 2) >> 2);
+      for (int c = 0; c < model.channels; ++c) paintColumns(model, y, c, {0, size.width}, planes);
+  });
+}
+
+void paintModelAt(const BitMask& places, const ConsensusBackground& model, const Executor& executor,
+                  std::array<Image<uint8_t>, 3>& planes) {
+  for (int c = 0; c < model.channels; ++c) planes[at(c)].resize(places.size());
+  executor.forRows(places.height(), [&](int first, int last) {
+    for (int y = first; y < last; ++y)
+      for (int word = 0; word < places.wordsPerRow(); ++word) {
+        if (places.row(y)[word] == 0) continue;
+        const int begin = word * kWordColumns;
+        const int end = std::min(places.width(), begin + kWordColumns);
+        for (int c = 0; c < model.channels; ++c) paintColumns(model, y, c, {begin, end}, planes);
       }
   });
 }

@@ -4,9 +4,10 @@
 //
 // Determinism: integers; what is remembered and when follows from a hash of place and frame, so
 // that any order of pixels gives the same bits. A pixel writes its own model only: it takes a
-// neighbour's colour by itself, never gives its own away.
+// neighbour's colour by itself, never gives its own away. The same bits on every SIMD target.
 #pragma once
 
+#include "core/bit_mask.hpp"
 #include "core/executor.hpp"
 #include "core/image.hpp"
 #include "core/picture.hpp"
@@ -40,21 +41,21 @@ void prepare(Size size, int channels, ConsensusBackground& model);
 /// Starts from one picture: each pixel's samples are colours from its neighbourhood.
 void fillFrom(const SmoothPicture& picture, const Executor& executor, ConsensusBackground& model);
 
-/// Distances (largest difference of a channel) to the nearest and the second nearest sample.
-struct Distances {
-  Image<uint8_t> nearest, second;
-};
-void measure(const SmoothPicture& picture, const ConsensusBackground& model,
-             const Executor& executor, Distances& out);
-
 /// How far a pixel may be off in any case: sensors are noisier where it is bright.
 struct Tolerance {
-  int least = 8;       ///< Grey levels.
-  int brightness = 0;  ///< Of 256: share of the pixel's brightness that is added.
+  int least = 8;       ///< Grey levels, 0 … 255.
+  int brightness = 0;  ///< Of 256: share of the pixel's brightness that is added. 0 … 255.
 };
-/// The distance beyond which a pixel is foreground: the tolerance and what noise and unrest add.
-void findRadii(const SmoothPicture& picture, const ConsensusBackground& model,
-               const Tolerance& tolerance, const Executor& executor, Image<uint8_t>& radii);
+
+/// The distance of a pixel from a sample is its largest difference of a channel. Its radius is the
+/// tolerance and what noise and unrest add.
+struct Verdicts {
+  BitMask raw;     ///< Fewer than two samples are within the radius.
+  BitMask strong;  ///< Fewer than two are within twice the radius.
+  Image<uint8_t> radii;
+};
+void judge(const SmoothPicture& picture, const ConsensusBackground& model,
+           const Tolerance& tolerance, const Executor& executor, Verdicts& out);
 
 /// How a frame is learnt.
 struct ConsensusRate {
@@ -62,19 +63,24 @@ struct ConsensusRate {
   int interval = 16;  ///< A background pixel remembers its colour every so many frames. 1 … 4096.
   bool isFirst = false;  ///< In the first frames unrest is not counted.
 };
-/// Learns pixels where `foreground` is 0. `raw` and `previousRaw` are the verdicts before cleaning.
-struct Verdicts {
-  ImageView<const uint8_t> foreground, raw, previousRaw;
+/// The cleaned foreground, and the verdicts before cleaning of this frame and the one before.
+struct LearntFrame {
+  const BitMask &foreground, &raw, &previousRaw;
 };
-void learn(const SmoothPicture& picture, const Verdicts& verdicts, const Distances& distances,
-           const ConsensusRate& rate, const Executor& executor, ConsensusBackground& model);
+/// Learns pixels that are no foreground. 64 columns of a row remember at once. Noise follows the
+/// distance to the nearest of all samples in every 16th row of a frame, unrest falls in every 8th.
+void learn(const SmoothPicture& picture, const LearntFrame& seen, const ConsensusRate& rate,
+           const Executor& executor, ConsensusBackground& model);
 
 /// Forgets what was where `places` is set and remembers the picture instead.
-void replaceWhere(ImageView<const uint8_t> places, const SmoothPicture& picture,
-                  const Executor& executor, ConsensusBackground& model);
+void replaceWhere(const BitMask& places, const SmoothPicture& picture, const Executor& executor,
+                  ConsensusBackground& model);
 
 /// The model as a picture: the mean of a few remembered colours.
 void paintModel(const ConsensusBackground& model, const Executor& executor,
                 std::array<Image<uint8_t>, 3>& planes);
+/// The same, but only where `places` is set and close to it.
+void paintModelAt(const BitMask& places, const ConsensusBackground& model, const Executor& executor,
+                  std::array<Image<uint8_t>, 3>& planes);
 
 }  // namespace rg

@@ -4,61 +4,114 @@
 #include "core/pixel.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
-#include <cstring>
 
 namespace rg {
 namespace {
 
-/// out[x] = number of set pixels among x − radius … x + radius of a row.
-void countAlongRow(const uint8_t* row, int width, int radius, uint8_t* out) {
-  int count = 0;
-  for (int x = 0; x < std::min(radius, width); ++x) count += row[x] != 0;
-  for (int x = 0; x < width; ++x) {
-    if (x + radius < width) count += row[x + radius] != 0;
-    if (x > radius) count -= row[x - radius - 1] != 0;
-    out[x] = static_cast<uint8_t>(count);
+/// Numbers of 64 columns, one binary digit a word: digit i of column x is bit x of word i.
+template <size_t digits>
+using Numbers = std::array<uint64_t, digits>;
+constexpr size_t kRowDigits = 4;     ///< At most 15 pixels along a row,
+constexpr size_t kSquareDigits = 8;  ///< 225 in a square.
+
+template <size_t digits>
+void addBit(Numbers<digits>& sum, uint64_t carry) {
+  for (size_t i = 0; i < digits && carry != 0; ++i) {
+    const uint64_t both = sum[i] & carry;
+    sum[i] ^= carry;
+    carry = both;
   }
 }
 
-void majorityRow(ImageView<const uint8_t> counts, int y, int radius, int limit, uint8_t* out) {
-  const int width = counts.width();
-  std::memset(out, 0, static_cast<size_t>(width));
-  // At most 15 * 15 = 225 pixels: the sum of a column fits a byte.
-  for (int i = std::max(0, y - radius); i <= std::min(counts.height() - 1, y + radius); ++i) {
-    const uint8_t* row = counts.row(i);
-    for (int x = 0; x < width; ++x) out[x] = static_cast<uint8_t>(out[x] + row[x]);
+void addRow(Numbers<kSquareDigits>& sum, const uint64_t* row) {
+  uint64_t carry = 0;
+  for (size_t i = 0; i < kRowDigits; ++i) {
+    const uint64_t half = sum[i] ^ row[i];
+    const uint64_t next = (sum[i] & row[i]) | (half & carry);
+    sum[i] = half ^ carry;
+    carry = next;
   }
-  for (int x = 0; x < width; ++x) out[x] = out[x] > limit ? 255 : 0;
+  for (size_t i = kRowDigits; i < kSquareDigits && carry != 0; ++i) {
+    const uint64_t next = sum[i] & carry;
+    sum[i] ^= carry;
+    carry = next;
+  }
+}
+
+uint64_t isAbove(const Numbers<kSquareDigits>& sum, int limit) {
+  uint64_t above = 0, equal = ~uint64_t{0};
+  for (size_t i = kSquareDigits; i-- > 0;) {
+    const uint64_t digit = (limit >> i & 1) != 0 ? ~uint64_t{0} : 0;
+    above |= equal & sum[i] & ~digit;
+    equal &= ~(sum[i] ^ digit);
+  }
+  return above;
+}
+
+/// Number of set pixels among x − radius … x + radius of a row.
+void countAlongRow(const uint64_t* row, int words, int radius, uint64_t* out) {
+  for (int word = 0; word < words; ++word, out += kRowDigits) {
+    const uint64_t before = word > 0 ? row[word - 1] : 0, here = row[word];
+    const uint64_t after = word + 1 < words ? row[word + 1] : 0;
+    Numbers<kRowDigits> sum{here};
+    if ((before | here | after) != 0)
+      for (int i = 1; i <= radius; ++i) {
+        addBit(sum, here << i | before >> (kWordColumns - i));
+        addBit(sum, here >> i | after << (kWordColumns - i));
+      }
+    std::copy(sum.begin(), sum.end(), out);
+  }
+}
+
+void majorityRow(const Image<uint64_t>& counts, int y, int radius, int limit, uint64_t* out) {
+  const int first = std::max(0, y - radius), last = std::min(counts.height() - 1, y + radius);
+  const int words = counts.width() / static_cast<int>(kRowDigits);
+  for (int word = 0; word < words; ++word) {
+    Numbers<kSquareDigits> sum{};
+    uint64_t any = 0;
+    for (int i = first; i <= last; ++i) {
+      const uint64_t* row = counts.row(i) + static_cast<size_t>(word) * kRowDigits;
+      const uint64_t isCounted = row[0] | row[1] | row[2] | row[3];
+      any |= isCounted;
+      if (isCounted != 0) addRow(sum, row);
+    }
+    out[word] = any == 0 ? 0 : isAbove(sum, limit);
+  }
 }
 
 }  // namespace
 
-void keepMajority(ImageView<const uint8_t> mask, int radius, int share, const Executor& executor,
-                  CleaningScratch& scratch, ImageView<uint8_t> out) {
-  assert(radius >= 1 && radius <= 7 && mask.size == out.size);
-  scratch.counts.resize(mask.size);
+void keepMajority(const BitMask& mask, int radius, int share, const Executor& executor,
+                  CleaningScratch& scratch, BitMask& out) {
+  assert(radius >= 1 && radius <= 7 && mask.size() == out.size());
+  const int words = mask.wordsPerRow();
+  scratch.counts.resize({words * static_cast<int>(kRowDigits), mask.height()});
   const int side = 2 * radius + 1;
   const int limit = side * side * share / 256;
   executor.forRows(mask.height(), [&](int first, int last) {
     for (int y = first; y < last; ++y)
-      countAlongRow(mask.row(y), mask.width(), radius, scratch.counts.row(y));
+      countAlongRow(mask.row(y), words, radius, scratch.counts.row(y));
   });
   executor.forRows(mask.height(), [&](int first, int last) {
-    for (int y = first; y < last; ++y) majorityRow(scratch.counts, y, radius, limit, out.row(y));
+    for (int y = first; y < last; ++y) {
+      majorityRow(scratch.counts, y, radius, limit, out.row(y));
+      out.row(y)[words - 1] &= out.columnsOf(words - 1);
+    }
   });
 }
 
-void dropSmallParts(ImageView<uint8_t> mask, uint32_t leastPx, CleaningScratch& scratch) {
-  findComponents(mask, 255, Connectivity::Four, scratch.components);
+void dropSmallParts(BitMask& mask, uint32_t leastPx, CleaningScratch& scratch) {
+  findComponents(mask, true, Connectivity::Four, scratch.components);
   const std::vector<Component>& list = scratch.components.list;
   scratch.isChosen.resize(list.size());
   for (size_t i = 0; i < list.size(); ++i) scratch.isChosen[i] = list[i].areaPx < leastPx;
-  paintComponents(scratch.components, scratch.isChosen, 0, mask);
+  paintComponents(scratch.components, scratch.isChosen, false, mask);
 }
 
-void fillHoles(ImageView<uint8_t> mask, uint32_t mostPx, CleaningScratch& scratch) {
-  findComponents(mask, 0, Connectivity::Four, scratch.components);
+void fillHoles(BitMask& mask, uint32_t mostPx, CleaningScratch& scratch) {
+  findComponents(mask, false, Connectivity::Four, scratch.components);
   const std::vector<Component>& list = scratch.components.list;
   scratch.isChosen.resize(list.size());
   for (size_t i = 0; i < list.size(); ++i) {
@@ -67,25 +120,24 @@ void fillHoles(ImageView<uint8_t> mask, uint32_t mostPx, CleaningScratch& scratc
         box.x == 0 || box.y == 0 || box.right() == mask.width() || box.bottom() == mask.height();
     scratch.isChosen[i] = !touchesBorder && list[i].areaPx <= mostPx;
   }
-  paintComponents(scratch.components, scratch.isChosen, 255, mask);
+  paintComponents(scratch.components, scratch.isChosen, true, mask);
 }
 
-void keepSupported(ImageView<uint8_t> mask, ImageView<const uint8_t> strong, uint32_t leastPx,
+void keepSupported(BitMask& mask, const BitMask& strong, uint32_t leastPx,
                    CleaningScratch& scratch) {
-  assert(mask.size == strong.size);
+  assert(mask.size() == strong.size());
   Components& found = scratch.components;
-  findComponents(mask, 255, Connectivity::Eight, found);
+  findComponents(mask, true, Connectivity::Eight, found);
   // The area is not needed any more: it takes the count.
   for (Component& component : found.list) component.areaPx = 0;
   for (const Run& run : found.runs) {
-    const uint8_t* row = strong.row(run.y);
-    const auto count = std::count(row + run.begin, row + run.end, uint8_t{255});
+    const int count = countColumns(strong.row(run.y), run.begin, run.end);
     found.list[run.component].areaPx += static_cast<uint32_t>(count);
   }
   scratch.isChosen.resize(found.list.size());
   for (size_t i = 0; i < found.list.size(); ++i)
     scratch.isChosen[i] = found.list[i].areaPx < leastPx;
-  paintComponents(found, scratch.isChosen, 0, mask);
+  paintComponents(found, scratch.isChosen, false, mask);
 }
 
 void fillLines(ImageView<const uint8_t> edges, const Box& box, CleaningScratch& scratch,

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Tidying binary masks: 0 and 255 in, 0 and 255 out.
+// Tidying binary masks. Words without a set pixel around them are skipped.
 //
 // Determinism: integers and explicit neighbourhoods; component steps follow core/components.hpp.
 // Pixels outside the picture count as 0.
 #pragma once
 
+#include "core/bit_mask.hpp"
 #include "core/components.hpp"
 #include "core/executor.hpp"
 #include "core/image.hpp"
@@ -18,25 +19,25 @@ namespace rg {
 struct CleaningScratch {
   Components components;
   std::vector<uint8_t> isChosen;
-  Image<uint8_t> counts;
+  Image<uint64_t> counts;              ///< Sums along rows, bit by bit.
   std::vector<int> firstRow, lastRow;  ///< Of each column's edge pixels.
 };
 
 /// A pixel is set where more than `share` of 256 of the square of side 2 · radius + 1 around it
 /// are set in `mask`. radius 1 … 7. share 128 is the median. In and out must differ.
-void keepMajority(ImageView<const uint8_t> mask, int radius, int share, const Executor& executor,
-                  CleaningScratch& scratch, ImageView<uint8_t> out);
+void keepMajority(const BitMask& mask, int radius, int share, const Executor& executor,
+                  CleaningScratch& scratch, BitMask& out);
 
 /// Clears 4-connected parts of fewer than `leastPx` pixels.
-void dropSmallParts(ImageView<uint8_t> mask, uint32_t leastPx, CleaningScratch& scratch);
+void dropSmallParts(BitMask& mask, uint32_t leastPx, CleaningScratch& scratch);
 
 /// Sets holes: 4-connected unset parts that don't touch the frame's border and have at most
 /// `mostPx` pixels.
-void fillHoles(ImageView<uint8_t> mask, uint32_t mostPx, CleaningScratch& scratch);
+void fillHoles(BitMask& mask, uint32_t mostPx, CleaningScratch& scratch);
 
 /// Clears 8-connected parts in which fewer than `leastPx` pixels are set in `strong` too
 /// (hysteresis).
-void keepSupported(ImageView<uint8_t> mask, ImageView<const uint8_t> strong, uint32_t leastPx,
+void keepSupported(BitMask& mask, const BitMask& strong, uint32_t leastPx,
                    CleaningScratch& scratch);
 
 /// The paper's line segmentation inside `box`: a pixel is set in `out` where its row has an edge

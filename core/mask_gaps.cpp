@@ -9,36 +9,6 @@
 namespace rg {
 namespace {
 
-void thickenRow(const uint8_t* from, int width, int margin, uint8_t* to) {
-  std::copy_n(from, width, to);
-  for (int step = 1; step <= std::min(margin, width - 1); ++step) {
-    for (int x = step; x < width; ++x) to[x] |= from[x - step];
-    for (int x = 0; x + step < width; ++x) to[x] |= from[x + step];
-  }
-}
-
-void thicken(ImageView<const uint8_t> mask, int margin, const Executor& executor,
-             GapScratch& scratch) {
-  const int width = mask.width(), height = mask.height();
-  scratch.across.resize(mask.size);
-  scratch.thick.resize(mask.size);
-  executor.forRows(height, [&](int first, int last) {
-    for (int y = first; y < last; ++y)
-      thickenRow(mask.row(y), width, margin, scratch.across.row(y));
-  });
-  executor.forRows(height, [&](int first, int last) {
-    for (int y = first; y < last; ++y) {
-      uint8_t* to = scratch.thick.row(y);
-      std::fill_n(to, width, uint8_t{0});
-      const int bottom = std::min(height - 1, y + margin);
-      for (int row = std::max(0, y - margin); row <= bottom; ++row) {
-        const uint8_t* from = scratch.across.row(row);
-        for (int x = 0; x < width; ++x) to[x] |= from[x];
-      }
-    }
-  });
-}
-
 void addStep(ImageView<const uint8_t> picture, int reach, Point p, Point direction,
              GapContour& contour) {
   const Point outside{p.x + reach * direction.x, p.y + reach * direction.y};
@@ -49,8 +19,8 @@ void addStep(ImageView<const uint8_t> picture, int reach, Point p, Point directi
   ++contour.pixels;
 }
 
-void readRun(ImageView<const uint8_t> picture, ImageView<const uint8_t> thick, int reach,
-             const Run& run, GapContour& contour) {
+void readRun(ImageView<const uint8_t> picture, const BitMask& thick, int reach, const Run& run,
+             GapContour& contour) {
   const int width = thick.width(), height = thick.height();
   if (run.begin == 0) contour.frameSides |= 1;
   if (run.y == 0) contour.frameSides |= 2;
@@ -59,9 +29,8 @@ void readRun(ImageView<const uint8_t> picture, ImageView<const uint8_t> thick, i
   if (run.begin > 0) addStep(picture, reach, {run.begin, run.y}, {-1, 0}, contour);
   if (run.end < width) addStep(picture, reach, {run.end - 1, run.y}, {1, 0}, contour);
   for (int x = run.begin; x < run.end; ++x) {
-    if (run.y > 0 && thick.at(x, run.y - 1) != 0)
-      addStep(picture, reach, {x, run.y}, {0, -1}, contour);
-    if (run.y + 1 < height && thick.at(x, run.y + 1) != 0)
+    if (run.y > 0 && thick.at(x, run.y - 1)) addStep(picture, reach, {x, run.y}, {0, -1}, contour);
+    if (run.y + 1 < height && thick.at(x, run.y + 1))
       addStep(picture, reach, {x, run.y}, {0, 1}, contour);
   }
 }
@@ -74,10 +43,10 @@ bool isGap(const Component& part, const GapContour& contour, int mostStep, uint3
 }  // namespace
 
 void fillUnedged(ImageView<const uint8_t> picture, int mostStep, uint32_t mostPx,
-                 const Executor& executor, GapScratch& scratch, ImageView<uint8_t> mask) {
+                 const Executor& executor, GapScratch& scratch, BitMask& mask) {
   const int margin = std::clamp(mask.height() / 40, 1, 4);
-  thicken(mask, margin, executor, scratch);
-  findComponents(scratch.thick, 0, Connectivity::Four, scratch.parts);
+  thicken(mask, margin, executor, scratch.across, scratch.thick);
+  findComponents(scratch.thick, false, Connectivity::Four, scratch.parts);
   const std::vector<Component>& list = scratch.parts.list;
   scratch.contours.assign(list.size(), {});
   for (const Run& run : scratch.parts.runs)
@@ -90,7 +59,7 @@ void fillUnedged(ImageView<const uint8_t> picture, int mostStep, uint32_t mostPx
     isAny = isAny || scratch.isChosen[i] != 0;
   }
   if (!isAny) return;
-  paintComponents(scratch.parts, scratch.isChosen, 255, mask);
+  paintComponents(scratch.parts, scratch.isChosen, true, mask);
   // The rim that the thickening took from the gap.
   for (const Run& run : scratch.parts.runs) {
     if (scratch.isChosen[run.component] == 0) continue;
@@ -98,8 +67,7 @@ void fillUnedged(ImageView<const uint8_t> picture, int mostStep, uint32_t mostPx
               bottom = std::min(mask.height() - 1, run.y + margin);
     const int begin = std::max(0, run.begin - margin),
               end = std::min(mask.width(), run.end + margin);
-    for (int y = top; y <= bottom; ++y)
-      std::fill(mask.row(y) + begin, mask.row(y) + end, uint8_t{255});
+    for (int y = top; y <= bottom; ++y) setColumns(mask.row(y), begin, end, true);
   }
 }
 

@@ -5,6 +5,7 @@
 // Determinism: integers; sums over components (core/components.hpp).
 #pragma once
 
+#include "core/bit_mask.hpp"
 #include "core/components.hpp"
 #include "core/executor.hpp"
 #include "core/image.hpp"
@@ -21,8 +22,7 @@ struct GapContour {
 };
 
 struct GapScratch {
-  Image<uint8_t> across,
-      thick;  ///< The mask grown by a few pixels, so that cracks don't open a gap.
+  BitMask across, thick;  ///< The mask grown by a few pixels, so that cracks don't open a gap.
   Components parts;
   std::vector<GapContour> contours;
   std::vector<uint8_t> isChosen;
@@ -31,6 +31,6 @@ struct GapScratch {
 /// Sets unset parts of at most `mostPx` pixels that touch at most one side of the frame and whose
 /// border to the mask has a mean step of at most `mostStep` grey levels in `picture`.
 void fillUnedged(ImageView<const uint8_t> picture, int mostStep, uint32_t mostPx,
-                 const Executor& executor, GapScratch& scratch, ImageView<uint8_t> mask);
+                 const Executor& executor, GapScratch& scratch, BitMask& mask);
 
 }  // namespace rg

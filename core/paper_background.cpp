@@ -33,7 +33,8 @@ class PaperBackground final : public BackgroundMethodModel {
   bool isTrained_ = false;
   uint32_t frame_ = 0;
   std::array<Image<uint8_t>, 3> mean_;
-  Image<uint8_t> simple_, gaussian_, common_, edges_, filled_, shadow_;
+  Image<uint8_t> simple_, gaussian_, common_, edges_, filled_;
+  BitMask found_, shadow_;
   Components areas_;
   CleaningScratch scratch_;
   std::vector<uint32_t> order_;
@@ -41,8 +42,9 @@ class PaperBackground final : public BackgroundMethodModel {
 
 void PaperBackground::prepare(const Picture& picture) {
   const Size size = picture.size();
-  for (Image<uint8_t>* image : {&simple_, &gaussian_, &common_, &edges_, &filled_, &shadow_})
+  for (Image<uint8_t>* image : {&simple_, &gaussian_, &common_, &edges_, &filled_})
     image->resize(size);
+  shadow_.resize(size);
   if (model_.channels == 0) startTraining(picture, model_);
 }
 
@@ -105,10 +107,9 @@ void PaperBackground::validate(const BackgroundJob& job, ImageView<uint8_t> mask
   const ColourPlanes background = model_.channels == 1 ? ColourPlanes{mean_[0], mean_[0], mean_[0]}
                                                        : ColourPlanes{mean_[1], mean_[0], mean_[2]};
   const ColourPlanes picture{job.picture->red(), job.picture->green(), job.picture->blue()};
-  findShadows(picture, background, mask, job.executor, shadow_);
-  for (int y = 0; y < mask.height(); ++y)
-    for (int x = 0; x < width; ++x)
-      if (shadow_.row(y)[x] != 0) mask.row(y)[x] = kShadowPixel;
+  packEqual(mask, kForegroundPixel, found_);
+  findShadows(picture, background, found_, job.executor, shadow_);
+  paint(shadow_, kShadowPixel, mask);
 }
 
 void PaperBackground::segment(const BackgroundJob& job, Foreground& out) {

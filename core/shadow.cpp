@@ -5,13 +5,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
+#include <numeric>
 
 namespace rg {
 namespace {
 
 constexpr int kRadius = 2;
-constexpr int kBlock = 256;            ///< Columns at a time: sums live on the stack.
 constexpr int64_t kMostResidual = 36;  ///< Square grey levels that noise and texture may leave.
 constexpr int64_t kMostTint = 14;      ///< Grey levels that a channel may leave the factor's line.
 
@@ -21,7 +20,7 @@ struct WindowSums {
 };
 
 struct ColumnSums {
-  std::array<uint32_t, kBlock + 2 * kRadius> i, b, ii, ib, bb;
+  std::array<uint32_t, kWordColumns + 2 * kRadius> i, b, ii, ib, bb;
 };
 
 void sumColumns(ImageView<const uint8_t> picture, ImageView<const uint8_t> background, int y,
@@ -44,9 +43,12 @@ void sumColumns(ImageView<const uint8_t> picture, ImageView<const uint8_t> backg
   }
 }
 
-/// One factor in range explains the window: the rest of I − (Σi / Σb) B is noise.
+bool isInRange(const WindowSums& s) {
+  return s.i * 20 <= s.b * 19 && s.i * 5 >= s.b * 2;
+}
+
+/// One factor explains the window: the rest of I − (Σi / Σb) B is noise.
 bool isDarkened(const WindowSums& s) {
-  if (s.i * 20 > s.b * 19 || s.i * 5 < s.b * 2) return false;
   const int64_t squareB = s.b * s.b;  // Sums below 25 · 255² keep all products under 2⁵⁰.
   const int64_t rest = s.ii * squareB - 2 * s.i * s.b * s.ib + s.i * s.i * s.bb;
   return rest <= s.count * kMostResidual * squareB;
@@ -62,49 +64,46 @@ bool keepsColour(const ColourPlanes& picture, const ColourPlanes& background, Po
          isNear(picture.blue, background.blue);
 }
 
-void markBlock(const ColourPlanes& picture, const ColourPlanes& background, const Box& block,
-               const uint8_t* mask, uint8_t* shadow) {
-  const int y = block.y;
-  const int begin = std::max(0, block.x - kRadius);
-  const int end = std::min(picture.green.size.width, block.right() + kRadius);
+/// The shadow among the pixels of one word of the mask.
+uint64_t findInWord(const ColourPlanes& picture, const ColourPlanes& background, Point at,
+                    uint64_t mask) {
+  const Size size = picture.green.size;
+  const int y = at.y, first = at.x * kWordColumns;
+  const int begin = std::max(0, first - kRadius);
+  const int end = std::min(size.width, first + kWordColumns + kRadius);
   ColumnSums columns;
   // Green stands for brightness: luma may have another range than the colours.
   sumColumns(picture.green, background.green, y, begin, end, columns);
-  const int rows =
-      std::min(picture.green.size.height - 1, y + kRadius) - std::max(0, y - kRadius) + 1;
-  for (int x = block.x; x < block.right(); ++x) {
-    if (mask[x] == 0) continue;
-    WindowSums sums;
-    const int from = std::max(begin, x - kRadius), to = std::min(end, x + kRadius + 1);
-    for (int i = from; i < to; ++i) {
-      const auto column = static_cast<size_t>(i - begin);
-      sums.i += columns.i[column];
-      sums.b += columns.b[column];
-      sums.ii += columns.ii[column];
-      sums.ib += columns.ib[column];
-      sums.bb += columns.bb[column];
-    }
-    sums.count = int64_t{rows} * (to - from);
-    if (isDarkened(sums) && keepsColour(picture, background, {x, y}, sums)) shadow[x] = 255;
-  }
+  const int rows = std::min(size.height - 1, y + kRadius) - std::max(0, y - kRadius) + 1;
+  uint64_t shadow = 0;
+  forSetBits(mask, first, [&](int x) {
+    const auto from = static_cast<size_t>(std::max(begin, x - kRadius) - begin);
+    const auto to = static_cast<size_t>(std::min(end, x + kRadius + 1) - begin);
+    const auto sum = [&](const auto& column) {
+      return std::accumulate(column.begin() + from, column.begin() + to, int64_t{0});
+    };
+    WindowSums sums{
+        rows * static_cast<int64_t>(to - from), sum(columns.i), sum(columns.b), 0, 0, 0};
+    if (!isInRange(sums) || !keepsColour(picture, background, {x, y}, sums)) return;
+    sums.ii = sum(columns.ii);
+    sums.ib = sum(columns.ib);
+    sums.bb = sum(columns.bb);
+    if (isDarkened(sums)) shadow |= uint64_t{1} << (x - first);
+  });
+  return shadow;
 }
 
 }  // namespace
 
-void findShadows(const ColourPlanes& picture, const ColourPlanes& background,
-                 ImageView<const uint8_t> mask, const Executor& executor,
-                 ImageView<uint8_t> shadow) {
-  const int width = picture.green.size.width;
-  executor.forRows(picture.green.size.height, [&](int first, int last) {
-    for (int y = first; y < last; ++y) {
-      const uint8_t* row = mask.row(y);
-      std::memset(shadow.row(y), 0, static_cast<size_t>(width));
-      for (int x = 0; x < width; x += kBlock) {
-        const int end = std::min(width, x + kBlock);
-        if (std::any_of(row + x, row + end, [](uint8_t value) { return value != 0; }))
-          markBlock(picture, background, {x, y, end - x, 1}, row, shadow.row(y));
+void findShadows(const ColourPlanes& picture, const ColourPlanes& background, const BitMask& mask,
+                 const Executor& executor, BitMask& shadow) {
+  executor.forRows(mask.height(), [&](int first, int last) {
+    for (int y = first; y < last; ++y)
+      for (int word = 0; word < mask.wordsPerRow(); ++word) {
+        const uint64_t columns = mask.row(y)[word];
+        shadow.row(y)[word] =
+            columns == 0 ? 0 : findInWord(picture, background, {word, y}, columns);
       }
-    }
   });
 }
 

@@ -5,6 +5,7 @@
 // Determinism: integers only; each pixel looks at its own window.
 #pragma once
 
+#include "core/bit_mask.hpp"
 #include "core/executor.hpp"
 #include "core/image.hpp"
 
@@ -17,10 +18,10 @@ struct ColourPlanes {
   ImageView<const uint8_t> red, green, blue;
 };
 
-/// Sets `shadow` to 255 where `mask` is set and the window of 5x5 around the pixel is explained by
-/// one factor between 0.4 and 0.95 on the background and the colour agrees; to 0 elsewhere.
-void findShadows(const ColourPlanes& picture, const ColourPlanes& background,
-                 ImageView<const uint8_t> mask, const Executor& executor,
-                 ImageView<uint8_t> shadow);
+/// Sets `shadow` where `mask` is set and the window of 5x5 around the pixel is explained by
+/// one factor between 0.4 and 0.95 on the background and the colour agrees; clears it elsewhere.
+/// The background is read no farther than two columns and two rows from the mask.
+void findShadows(const ColourPlanes& picture, const ColourPlanes& background, const BitMask& mask,
+                 const Executor& executor, BitMask& shadow);
 
 }  // namespace rg

@@ -19,25 +19,35 @@ uint16_t nextAge(int age, bool isSame) {
   return static_cast<uint16_t>(std::max(0, age - 1 - age / 4));
 }
 
-void followRow(const SmoothPicture& picture, const uint8_t* foreground, const uint8_t* radii, int y,
-               StillPixels& still) {
-  uint16_t* ages = still.ages.row(y);
-  uint8_t* fresh = still.fresh.row(y);
-  for (int x = 0; x < picture.size().width; ++x)
-    fresh[x] = static_cast<uint8_t>(std::max(1, int{fresh[x]}) - 1);
-  for (int x = 0; x < picture.size().width; ++x) {
-    if (foreground[x] == 0) {
-      ages[x] = 0;
-      continue;
-    }
-    int off = 0;
-    for (size_t c = 0; c < static_cast<size_t>(picture.channels); ++c)
-      off = std::max(off, absDiff(picture.planes[c].row(y)[x], still.colours[c].row(y)[x]));
-    ages[x] = nextAge(ages[x], ages[x] != 0 && off <= radii[x]);
-    if (ages[x] != 0) continue;
-    ages[x] = 1;
-    for (size_t c = 0; c < static_cast<size_t>(picture.channels); ++c)
-      still.colours[c].row(y)[x] = picture.planes[c].row(y)[x];
+void followPixel(const SmoothPicture& picture, int radius, Point p, StillPixels& still) {
+  uint16_t& age = still.ages.at(p.x, p.y);
+  int off = 0;
+  for (size_t c = 0; c < static_cast<size_t>(picture.channels); ++c)
+    off = std::max(off, absDiff(picture.planes[c].at(p.x, p.y), still.colours[c].at(p.x, p.y)));
+  age = nextAge(age, age != 0 && off <= radius);
+  if (age != 0) return;
+  age = 1;
+  for (size_t c = 0; c < static_cast<size_t>(picture.channels); ++c)
+    still.colours[c].at(p.x, p.y) = picture.planes[c].at(p.x, p.y);
+}
+
+void followRow(const SmoothPicture& picture, const uint64_t* foreground, const uint8_t* radii,
+               int y, StillPixels& still) {
+  uint8_t& freshFrames = still.freshRows[static_cast<size_t>(y)];
+  if (freshFrames > 0) {
+    --freshFrames;
+    uint8_t* fresh = still.fresh.row(y);
+    for (int x = 0; x < picture.size().width; ++x)
+      fresh[x] = static_cast<uint8_t>(std::max(uint8_t{1}, fresh[x]) - 1);
+  }
+  uint64_t* aged = still.aged.row(y);
+  for (int word = 0; word < still.aged.wordsPerRow(); ++word) {
+    const int begin = word * kWordColumns;
+    forSetBits(aged[word] & ~foreground[word], begin, [&](int x) { still.ages.at(x, y) = 0; });
+    forSetBits(foreground[word], begin, [&](int x) {
+      followPixel(picture, radii[x], {x, y}, still);
+    });
+    aged[word] = foreground[word];
   }
 }
 
@@ -45,8 +55,7 @@ void followRow(const SmoothPicture& picture, const uint8_t* foreground, const ui
 class ContourReader {
  public:
   ContourReader(const SmoothPicture& picture, const ConsensusBackground& model,
-                ImageView<const uint8_t> foreground, StillScratch& scratch,
-                ImageView<const uint8_t> fresh)
+                const BitMask& foreground, StillScratch& scratch, ImageView<const uint8_t> fresh)
       : picture_(picture),
         model_(model),
         foreground_(foreground),
@@ -69,13 +78,12 @@ class ContourReader {
     const Point beside{p.x + step.x, p.y + step.y};
     const Point outside{p.x + 2 * step.x, p.y + 2 * step.y};
     const Point inside{p.x - step.x, p.y - step.y};
-    const Box bounds = boundsOf(foreground_.size);
+    const Box bounds = boundsOf(foreground_.size());
     if (!bounds.contains(outside) || !bounds.contains(inside)) return;
-    if (still_.at(beside.x, beside.y) != 0) return;
+    if (still_.at(beside.x, beside.y)) return;
     ContourSums& sums = contours_[component];
     ++sums.allPixels;
-    if (foreground_.at(beside.x, beside.y) != 0 || foreground_.at(outside.x, outside.y) != 0)
-      return;
+    if (foreground_.at(beside.x, beside.y) || foreground_.at(outside.x, outside.y)) return;
     if (fresh_.at(outside.x, outside.y) != 0) return;
     int inPicture = 0, inModel = 0;
     for (int c = 0; c < picture_.channels; ++c) {
@@ -98,7 +106,8 @@ class ContourReader {
 
   const SmoothPicture& picture_;
   const ConsensusBackground& model_;
-  ImageView<const uint8_t> foreground_, still_, fresh_;
+  const BitMask &foreground_, &still_;
+  ImageView<const uint8_t> fresh_;
   std::vector<ContourSums>& contours_;
 };
 
@@ -123,10 +132,19 @@ uint32_t judgeParts(StillScratch& scratch) {
 void prepare(Size size, int channels, StillPixels& still) {
   for (size_t c = 0; c < static_cast<size_t>(channels); ++c) still.colours[c].resize(size);
   still.ages.resize(size);
+  still.aged.resize(size);
   still.fresh.resize(size);
+  still.freshRows.resize(static_cast<size_t>(size.height));
 }
 
-void followStill(const SmoothPicture& picture, ImageView<const uint8_t> foreground,
+void clear(StillPixels& still) {
+  still.ages.fill(0);
+  still.aged.clear();
+  still.fresh.fill(0);
+  std::fill(still.freshRows.begin(), still.freshRows.end(), uint8_t{0});
+}
+
+void followStill(const SmoothPicture& picture, const BitMask& foreground,
                  ImageView<const uint8_t> radii, const Executor& executor, StillPixels& still) {
   executor.forRows(picture.size().height, [&](int first, int last) {
     for (int y = first; y < last; ++y)
@@ -135,23 +153,25 @@ void followStill(const SmoothPicture& picture, ImageView<const uint8_t> foregrou
 }
 
 uint32_t findGhosts(const SmoothPicture& picture, const ConsensusBackground& model,
-                    ImageView<const uint8_t> foreground, StillPixels& still, int leastAge,
-                    StillScratch& scratch, ImageView<uint8_t> ghosts) {
-  scratch.still.resize(foreground.size);
-  for (int y = 0; y < foreground.height(); ++y) {
-    const uint16_t* ages = still.ages.row(y);
-    uint8_t* out = scratch.still.row(y);
-    for (int x = 0; x < foreground.width(); ++x) out[x] = ages[x] >= leastAge ? 255 : 0;
-    std::fill_n(ghosts.row(y), foreground.width(), uint8_t{0});
-  }
-  findComponents(scratch.still, 255, Connectivity::Eight, scratch.parts);
+                    const BitMask& foreground, StillPixels& still, int leastAge,
+                    StillScratch& scratch, BitMask& ghosts) {
+  scratch.still.resize(foreground.size());
+  scratch.still.clear();
+  ghosts.clear();
+  forSetPixels(foreground, 0, foreground.height(), [&](int x, int y) {
+    if (still.ages.at(x, y) >= leastAge) scratch.still.set(x, y);
+  });
+  findComponents(scratch.still, true, Connectivity::Eight, scratch.parts);
   scratch.contours.assign(scratch.parts.list.size(), {});
   ContourReader reader(picture, model, foreground, scratch, still.fresh);
   for (const Run& run : scratch.parts.runs) reader.read(run);
   const uint32_t pixels = judgeParts(scratch);
   if (pixels == 0) return 0;
-  paintComponents(scratch.parts, scratch.isGhost, 255, ghosts);
+  paintComponents(scratch.parts, scratch.isGhost, true, ghosts);
   paintComponents(scratch.parts, scratch.isGhost, kFreshFrames, still.fresh);
+  for (const Run& run : scratch.parts.runs)
+    if (scratch.isGhost[run.component] != 0)
+      still.freshRows[static_cast<size_t>(run.y)] = kFreshFrames;
   return pixels;
 }
 

@@ -20,13 +20,17 @@ namespace rg {
 struct StillPixels {
   std::array<Image<uint8_t>, 3> colours;
   Image<uint16_t> ages;  ///< 0: background, or just changed.
+  BitMask aged;          ///< Where ages are not 0.
   Image<uint8_t> fresh;  ///< Frames for which a dissolved ghost's place is no witness; 0: it is.
+  std::vector<uint8_t> freshRows;  ///< Of each row: the most frames of its pixels.
 };
 
 void prepare(Size size, int channels, StillPixels& still);
+/// Forgets all.
+void clear(StillPixels& still);
 
 /// Ages pixels of `foreground` whose colour stays within `radii`, ages the others backwards.
-void followStill(const SmoothPicture& picture, ImageView<const uint8_t> foreground,
+void followStill(const SmoothPicture& picture, const BitMask& foreground,
                  ImageView<const uint8_t> radii, const Executor& executor, StillPixels& still);
 
 /// Of one part: edges across its contour, summed over the pixels where they could be read.
@@ -36,17 +40,17 @@ struct ContourSums {
 };
 
 struct StillScratch {
-  Image<uint8_t> still;  ///< 255 where a foreground pixel is old enough.
+  BitMask still;  ///< Foreground that is old enough.
   Components parts;
   std::vector<uint8_t> isGhost;
   std::vector<ContourSums> contours;
 };
 
-/// Sets `ghosts` to 255 on the 8-connected parts of still foreground, at least `leastAge` frames
+/// Sets `ghosts` on the 8-connected parts of still foreground, at least `leastAge` frames
 /// old, whose contour towards the background shows an edge in the model rather than in the
-/// picture; to 0 elsewhere. Returns the number of their pixels.
+/// picture; clears it elsewhere. Returns the number of their pixels.
 uint32_t findGhosts(const SmoothPicture& picture, const ConsensusBackground& model,
-                    ImageView<const uint8_t> foreground, StillPixels& still, int leastAge,
-                    StillScratch& scratch, ImageView<uint8_t> ghosts);
+                    const BitMask& foreground, StillPixels& still, int leastAge,
+                    StillScratch& scratch, BitMask& ghosts);
 
 }  // namespace rg

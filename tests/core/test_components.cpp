@@ -112,6 +112,31 @@ TEST(Components, AgreeWithAFloodFillOnNoise) {
   }
 }
 
+TEST(Components, UnsetBitsHaveComponentsToo) {
+  BitMask mask = test::drawBits({"#.#", "#.#", "###", "..."});
+  Components found;
+  findComponents(mask, false, Connectivity::Four, found);
+  ASSERT_EQ(found.list.size(), 2u);
+  EXPECT_EQ(found.list[0].areaPx, 2u);
+  EXPECT_EQ(found.list[1].box, (Box{0, 3, 3, 1}));
+  paintComponents(found, std::vector<uint8_t>{1, 0}, true, mask);
+  EXPECT_EQ(textOf(mask), (std::vector<std::string>{"###", "###", "###", "..."}));
+}
+
+TEST(Components, RunsCrossWords) {
+  BitMask mask({200, 2});
+  mask.clear();
+  setColumns(mask.row(0), 3, 128, true);
+  setColumns(mask.row(1), 128, 200, true);
+  Components found;
+  findComponents(mask, true, Connectivity::Four, found);
+  EXPECT_EQ(found.list.size(), 2u);
+  EXPECT_EQ(found.runs.at(0).end, 128);
+  EXPECT_EQ(found.runs.at(1).end, 200);
+  findComponents(mask, true, Connectivity::Eight, found);
+  EXPECT_EQ(found.list.size(), 1u);
+}
+
 TEST(Components, PaintingTouchesOnlyTheChosen) {
   Image<uint8_t> mask = drawMask({"##..#", "....#"});
   Components found;

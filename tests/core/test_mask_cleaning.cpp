@@ -8,13 +8,14 @@
 namespace rg {
 namespace {
 
+using test::drawBits;
 using test::drawMask;
 using test::textOf;
 using Lines = std::vector<std::string>;
 
 Lines majority(const Lines& lines, int radius, int share, int threads = 1) {
-  const Image<uint8_t> mask = drawMask(lines);
-  Image<uint8_t> out(mask.size());
+  const BitMask mask = drawBits(lines);
+  BitMask out(mask.size());
   CleaningScratch scratch;
   keepMajority(mask, radius, share, Executor(threads), scratch, out);
   return textOf(out);
@@ -48,14 +49,14 @@ TEST(MaskCleaning, ThreadsChangeNothing) {
 }
 
 TEST(MaskCleaning, SmallPartsGoByTheirFourConnectedArea) {
-  Image<uint8_t> mask = drawMask({"##...", "..##.", "..##."});
+  BitMask mask = drawBits({"##...", "..##.", "..##."});
   CleaningScratch scratch;
   dropSmallParts(mask, 3, scratch);
   EXPECT_EQ(textOf(mask), (Lines{".....", "..##.", "..##."}));
 }
 
 TEST(MaskCleaning, OnlyEnclosedSmallHolesAreFilled) {
-  Image<uint8_t> mask = drawMask({"#####.", "#.#.#.", "#####.", "#..###", "#..#.#", "####.#"});
+  BitMask mask = drawBits({"#####.", "#.#.#.", "#####.", "#..###", "#..#.#", "####.#"});
   CleaningScratch scratch;
   fillHoles(mask, 2, scratch);
   // The two pinholes go; the hole of four is too large, the crack reaches the border.
@@ -63,8 +64,8 @@ TEST(MaskCleaning, OnlyEnclosedSmallHolesAreFilled) {
 }
 
 TEST(MaskCleaning, HysteresisKeepsWeakPixelsThatTouchStrongOnes) {
-  Image<uint8_t> mask = drawMask({"###..##", "..#..##"});
-  const Image<uint8_t> strong = drawMask({"..#....", "..#...."});
+  BitMask mask = drawBits({"###..##", "..#..##"});
+  const BitMask strong = drawBits({"..#....", "..#...."});
   CleaningScratch scratch;
   keepSupported(mask, strong, 2, scratch);
   EXPECT_EQ(textOf(mask), (Lines{"###....", "..#...."}));
@@ -99,12 +100,12 @@ Lines gapsFilled(uint8_t inside, uint32_t mostPx) {
   for (size_t y = 4; y < 24; ++y)
     for (size_t x = 4; x < 20; ++x)
       if (y < 8 || x < 8 || x >= 16) lines[y][x] = '#';
-  Image<uint8_t> mask = drawMask(lines);
+  BitMask mask = drawBits(lines);
   // The body is 40 bright, the wall 200; what lies between the arms is asked for.
   Image<uint8_t> picture(mask.size());
   for (int y = 0; y < 24; ++y)
     for (int x = 0; x < 24; ++x)
-      picture.at(x, y) = mask.at(x, y) != 0 ? 40 : x >= 8 && x < 16 && y >= 8 ? inside : 200;
+      picture.at(x, y) = mask.at(x, y) ? 40 : x >= 8 && x < 16 && y >= 8 ? inside : 200;
   GapScratch scratch;
   fillUnedged(picture, 14, mostPx, Executor(1), scratch, mask);
   return textOf(mask);

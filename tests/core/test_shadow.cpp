@@ -8,7 +8,7 @@
 namespace rg {
 namespace {
 
-using test::drawMask;
+using test::drawBits;
 using test::makePicture;
 using test::Rgb;
 using test::textOf;
@@ -24,14 +24,12 @@ template <class ColourOf>
 int shadowPixels(Size size, const ColourOf& colourOf, int threads = 1) {
   const auto before = makePicture(size, wall);
   const auto now = makePicture(size, colourOf);
-  Image<uint8_t> mask(size), shadow(size);
-  mask.fill(255);
+  BitMask mask(size), shadow(size);
+  mask.clear();
+  for (int y = 0; y < size.height; ++y) setColumns(mask.row(y), 0, size.width, true);
   const auto planes = [](const Picture& p) { return ColourPlanes{p.red(), p.green(), p.blue()}; };
   findShadows(planes(*now), planes(*before), mask, Executor(threads), shadow);
-  int count = 0;
-  for (int y = 0; y < size.height; ++y)
-    for (int x = 0; x < size.width; ++x) count += shadow.at(x, y) != 0;
-  return count;
+  return static_cast<int>(countSet(shadow));
 }
 
 Rgb scaled(Rgb colour, int percent) {
@@ -79,9 +77,9 @@ TEST(Shadow, ThreadsChangeNothing) {
 using Lines = std::vector<std::string>;
 
 Lines cast(const Lines& mask, const Lines& dark) {
-  Image<uint8_t> out = drawMask(dark);
+  BitMask out = drawBits(dark);
   CastShadowScratch scratch;
-  keepCastShadows(drawMask(mask), out, scratch);
+  keepCastShadows(drawBits(mask), out, scratch);
   return textOf(out);
 }
 

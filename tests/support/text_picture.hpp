@@ -2,6 +2,7 @@
 // Masks drawn as text, and pictures with known contents, for tests.
 #pragma once
 
+#include "core/bit_mask.hpp"
 #include "core/executor.hpp"
 #include "core/frame.hpp"
 #include "core/image.hpp"
@@ -23,6 +24,12 @@ inline Image<uint8_t> drawMask(const std::vector<std::string>& lines) {
   return mask;
 }
 
+inline BitMask drawBits(const std::vector<std::string>& lines) {
+  BitMask mask;
+  packEqual(drawMask(lines), 255, mask);
+  return mask;
+}
+
 /// The reverse, with 's' for values between.
 inline std::vector<std::string> textOf(ImageView<const uint8_t> mask) {
   std::vector<std::string> lines;
@@ -35,6 +42,13 @@ inline std::vector<std::string> textOf(ImageView<const uint8_t> mask) {
     lines.push_back(line);
   }
   return lines;
+}
+
+inline std::vector<std::string> textOf(const BitMask& mask) {
+  Image<uint8_t> bytes(mask.size());
+  bytes.fill(0);
+  paint(mask, 255, bytes);
+  return textOf(bytes);
 }
 
 struct Rgb {

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "core/simd/consensus_rows.hpp"
+
+#include "core/pixel.hpp"
+#include "core/simd/targets.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/simd/consensus_rows.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+namespace rg::plain {
+
+/// The columns begin … end − 1 of smoothRow.
+void smoothColumns(const RowsAround& in, int begin, int end, uint8_t* out);
+/// Unsets the bits beyond the row's end.
+void clearBeyond(int width, const VerdictRow& out);
+
+}  // namespace rg::plain
+
+HWY_BEFORE_NAMESPACE();
+namespace rg::HWY_NAMESPACE {
+#if HWY_TARGET == HWY_SCALAR
+using plain::followNoiseRow;
+using plain::judgeRow;
+using plain::smoothRow;
+#else
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Bytes = hn::CappedTag<uint8_t, 64>;
+using Words = hn::Repartition<uint16_t, Bytes>;
+using V = hn::Vec<Bytes>;
+constexpr Bytes kBytes;
+constexpr Words kWords;
+
+/// Sums of 16 bits over the bytes with even and with odd column.
+struct Halves {
+  hn::Vec<Words> even, odd;
+};
+
+Halves split(V bytes) {
+  const auto words = hn::BitCast(kWords, bytes);
+  return {hn::And(words, hn::Set(kWords, 0xFF)), hn::ShiftRight<8>(words)};
+}
+
+Halves add(const Halves& a, const Halves& b) {
+  return {hn::Add(a.even, b.even), hn::Add(a.odd, b.odd)};
+}
+
+Halves twice(const Halves& a) {
+  return {hn::ShiftLeft<1>(a.even), hn::ShiftLeft<1>(a.odd)};
+}
+
+/// a / 2^shift; the results must be below 256.
+template <int shift>
+V join(const Halves& a) {
+  const auto even = hn::ShiftRight<shift>(a.even);
+  const auto odd = hn::ShiftLeft<8>(hn::ShiftRight<shift>(a.odd));
+  return hn::BitCast(kBytes, hn::Or(even, odd));
+}
+
+Halves sumDown(const RowsAround& in, ptrdiff_t x) {
+  const Halves outer =
+      add(split(hn::LoadU(kBytes, in.above + x)), split(hn::LoadU(kBytes, in.below + x)));
+  return add(outer, twice(split(hn::LoadU(kBytes, in.here + x))));
+}
+
+void smoothRow(const RowsAround& in, uint8_t* out) {
+  const auto lanes = static_cast<int>(hn::Lanes(kBytes));
+  const Halves half{hn::Set(kWords, 8), hn::Set(kWords, 8)};
+  int x = 1;
+  for (; x + lanes < in.width; x += lanes) {
+    const Halves sides = add(sumDown(in, x - 1), sumDown(in, x + 1));
+    hn::StoreU(join<4>(add(add(sides, half), twice(sumDown(in, x)))), kBytes, out + x);
+  }
+  plain::smoothColumns(in, 0, 1, out);
+  plain::smoothColumns(in, x, in.width, out);
+}
+
+V distance(const std::array<V, 3>& pixels, const ModelRow& row, int sample, int x) {
+  const uint8_t* from = row.samples + sample * row.channels * row.sampleStride + x;
+  const auto off = [&](size_t channel, const uint8_t* samples) {
+    const auto there = hn::LoadU(kBytes, samples);
+    return hn::Or(hn::SaturatedSub(pixels[channel], there),
+                  hn::SaturatedSub(there, pixels[channel]));
+  };
+  V most = off(0, from);
+  if (row.channels == 1) return most;
+  most = hn::Max(most, off(1, from + row.sampleStride));
+  return hn::Max(most, off(2, from + 2 * row.sampleStride));
+}
+
+std::array<V, 3> loadPixels(const ModelRow& row, int x) {
+  const V first = hn::LoadU(kBytes, row.pixels[0] + x);
+  if (row.channels == 1) return {first, first, first};
+  return {first, hn::LoadU(kBytes, row.pixels[1] + x), hn::LoadU(kBytes, row.pixels[2] + x)};
+}
+
+V radiusOf(V brightness, const RadiusRow& radius, int x) {
+  const Halves levels = split(brightness);
+  const auto share = hn::Set(kWords, radius.brightness);
+  const V added = join<8>({hn::Mul(levels.even, share), hn::Mul(levels.odd, share)});
+  V sum = hn::SaturatedAdd(hn::Set(kBytes, radius.least), added);
+  sum = hn::SaturatedAdd(sum, hn::ShiftRight<2>(hn::LoadU(kBytes, radius.noise + x)));
+  return hn::SaturatedAdd(sum, hn::ShiftRight<4>(hn::LoadU(kBytes, radius.unrest + x)));
+}
+
+/// Stops as soon as no pixel can turn to background by another sample.
+V secondDistance(const ModelRow& row, V radius, int x) {
+  const std::array<V, 3> pixels = loadPixels(row, x);
+  V nearest = hn::Set(kBytes, 255), second = nearest;
+  for (int sample = 0; sample < row.sampleCount; ++sample) {
+    const V d = distance(pixels, row, sample, x);
+    second = hn::Min(second, hn::Max(nearest, d));
+    nearest = hn::Min(nearest, d);
+    if (hn::AllTrue(kBytes, hn::Eq(hn::Max(second, radius), radius))) break;
+  }
+  return second;
+}
+
+void judgeRow(const ModelRow& row, const RadiusRow& radius, const VerdictRow& out) {
+  const size_t lanes = hn::Lanes(kBytes);
+  for (int begin = 0; begin < row.width; begin += 64) {
+    uint8_t raw[16], strong[16];  // StoreMaskBits may write eight bytes.
+    for (size_t i = 0; i < 64; i += lanes) {
+      const int x = begin + static_cast<int>(i);
+      const V reach = radiusOf(hn::LoadU(kBytes, row.pixels[0] + x), radius, x);
+      const V wide = hn::Min(hn::SaturatedAdd(reach, reach), hn::Set(kBytes, 254));
+      const V second = secondDistance(row, reach, x);
+      hn::StoreU(reach, kBytes, out.radii + x);
+      const auto isRaw = hn::Ne(hn::Max(second, reach), reach);
+      const auto isFar = hn::Ne(hn::Max(second, wide), wide);
+      hn::StoreMaskBits(kBytes, isRaw, raw + i / 8);
+      hn::StoreMaskBits(kBytes, hn::And(isRaw, isFar), strong + i / 8);
+    }
+    std::memcpy(out.raw + begin / 64, raw, 8);
+    std::memcpy(out.strong + begin / 64, strong, 8);
+  }
+  plain::clearBeyond(row.width, out);
+}
+
+/// a / 4, rounded up.
+V quarter(V a) {
+  const auto rest = hn::Min(hn::And(a, hn::Set(kBytes, 3)), hn::Set(kBytes, 1));
+  return hn::Add(hn::ShiftRight<2>(a), rest);
+}
+
+void followNoiseRow(const ModelRow& row, const NoiseRow& out) {
+  const auto lanes = static_cast<int>(hn::Lanes(kBytes));
+  for (int x = 0; x < row.width; x += lanes) {
+    const std::array<V, 3> pixels = loadPixels(row, x);
+    V nearest = hn::Set(kBytes, 31);
+    for (int sample = 0; sample < row.sampleCount; ++sample)
+      nearest = hn::Min(nearest, distance(pixels, row, sample, x));
+    const V seen = hn::ShiftLeft<3>(nearest), before = hn::LoadU(kBytes, out.noise + x);
+    const V less = hn::Sub(before, quarter(hn::SaturatedSub(before, seen)));
+    const V after = hn::Add(less, quarter(hn::SaturatedSub(seen, before)));
+    const auto kept = hn::LoadMaskBits(kBytes, reinterpret_cast<const uint8_t*>(out.kept) + x / 8);
+    hn::StoreU(hn::IfThenElse(kept, before, after), kBytes, out.noise + x);
+  }
+}
+
+}  // namespace
+#endif
+}  // namespace rg::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace rg {
+
+void plain::smoothColumns(const RowsAround& in, int begin, int end, uint8_t* out) {
+  const auto sum = [&](int x) {
+    x = std::clamp(x, 0, in.width - 1);
+    return in.above[x] + 2 * in.here[x] + in.below[x];
+  };
+  for (int x = begin; x < end; ++x)
+    out[x] = static_cast<uint8_t>(roundShift(sum(x - 1) + 2 * sum(x) + sum(x + 1), 4));
+}
+
+void plain::smoothRow(const RowsAround& in, uint8_t* out) {
+  smoothColumns(in, 0, in.width, out);
+}
+
+void plain::clearBeyond(int width, const VerdictRow& out) {
+  if (width % 64 == 0) return;
+  const uint64_t columns = (uint64_t{1} << width % 64) - 1;
+  out.raw[width / 64] &= columns;
+  out.strong[width / 64] &= columns;
+}
+
+namespace {
+
+/// Largest difference of a channel.
+int distanceAt(const ModelRow& row, int sample, int x) {
+  int most = 0;
+  for (int c = 0; c < row.channels; ++c) {
+    const uint8_t* from = row.samples + (sample * row.channels + c) * row.sampleStride;
+    most = std::max(most, absDiff(row.pixels[static_cast<size_t>(c)][x], from[x]));
+  }
+  return most;
+}
+
+HWY_EXPORT(smoothRow);
+HWY_EXPORT(judgeRow);
+HWY_EXPORT(followNoiseRow);
+
+}  // namespace
+
+void plain::judgeRow(const ModelRow& row, const RadiusRow& radius, const VerdictRow& out) {
+  for (int word = 0; word * 64 < row.width; ++word) out.raw[word] = out.strong[word] = 0;
+  for (int x = 0; x < row.width; ++x) {
+    const int reach = std::min(255, radius.least + (row.pixels[0][x] * radius.brightness >> 8) +
+                                        (radius.noise[x] >> 2) + (radius.unrest[x] >> 4));
+    int nearest = 255, second = 255;
+    for (int sample = 0; sample < row.sampleCount; ++sample) {
+      const int d = distanceAt(row, sample, x);
+      second = std::min(second, std::max(nearest, d));
+      nearest = std::min(nearest, d);
+    }
+    out.radii[x] = static_cast<uint8_t>(reach);
+    const bool isRaw = second > reach, isFar = second > std::min(254, 2 * reach);
+    out.raw[x / 64] |= uint64_t{isRaw} << x % 64;
+    out.strong[x / 64] |= uint64_t{isRaw && isFar} << x % 64;
+  }
+}
+
+void plain::followNoiseRow(const ModelRow& row, const NoiseRow& out) {
+  for (int x = 0; x < row.width; ++x) {
+    if ((out.kept[x / 64] >> x % 64 & 1) != 0) continue;
+    int nearest = 31;
+    for (int sample = 0; sample < row.sampleCount; ++sample)
+      nearest = std::min(nearest, distanceAt(row, sample, x));
+    const int off = 8 * nearest - out.noise[x];
+    const int step = (absDiff(off, 0) + 3) / 4;
+    out.noise[x] = static_cast<uint8_t>(out.noise[x] + (off > 0 ? step : -step));
+  }
+}
+
+void simd::smoothRow(const RowsAround& in, uint8_t* out) {
+  HWY_DYNAMIC_DISPATCH(smoothRow)(in, out);
+}
+
+void simd::judgeRow(const ModelRow& row, const RadiusRow& radius, const VerdictRow& out) {
+  HWY_DYNAMIC_DISPATCH(judgeRow)(row, radius, out);
+}
+
+void simd::followNoiseRow(const ModelRow& row, const NoiseRow& noise) {
+  HWY_DYNAMIC_DISPATCH(followNoiseRow)(row, noise);
+}
+
+}  // namespace rg
+#endif

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The hot loops of core/consensus_background.hpp over one row, by the widest instructions there
+// are.
+//
+// The same bits on every target. plain:: is the reference that the tests compare with.
+// Rows must be readable and writable up to the next multiple of 64 columns, as an Image's are.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace rg {
+
+/// Three rows of a plane: the one above, the row itself, the one below.
+struct RowsAround {
+  const uint8_t *above, *here, *below;
+  int width;
+};
+
+/// A row of the picture and of its model: channel c of sample k is row k · channels + c of samples.
+struct ModelRow {
+  std::array<const uint8_t*, 3> pixels;
+  const uint8_t* samples;
+  ptrdiff_t sampleStride;
+  int channels;  ///< 1 or 3.
+  int sampleCount;
+  int width;
+};
+
+/// What the distance is compared with: least + brightness · pixel / 256 + noise / 4 + unrest / 16.
+struct RadiusRow {
+  const uint8_t *noise, *unrest;
+  uint8_t least, brightness;
+};
+
+struct VerdictRow {
+  uint8_t* radii;          ///< At most 255.
+  uint64_t *raw, *strong;  ///< Fewer than two samples within the radius, and within twice that.
+};
+
+/// Noise follows the distance to the nearest sample where `kept` is 0.
+struct NoiseRow {
+  uint8_t* noise;  ///< 1/8 grey level.
+  const uint64_t* kept;
+};
+
+namespace plain {
+void smoothRow(const RowsAround& in, uint8_t* out);
+void judgeRow(const ModelRow& row, const RadiusRow& radius, const VerdictRow& out);
+void followNoiseRow(const ModelRow& row, const NoiseRow& noise);
+}  // namespace plain
+
+namespace simd {
+/// 3x3 (1 2 1) / 16, rounded; the row's ends are repeated.
+void smoothRow(const RowsAround& in, uint8_t* out);
+void judgeRow(const ModelRow& row, const RadiusRow& radius, const VerdictRow& out);
+/// A quarter of the way, rounded away from the old value; distances count up to 31.
+void followNoiseRow(const ModelRow& row, const NoiseRow& noise);
+}  // namespace simd
+
+}  // namespace rg

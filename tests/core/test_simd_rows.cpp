@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The row functions of core/simd against their plain references: every target of this machine, odd
+// widths, padded strides, guard bytes, fills that provoke overflows.
+#include "core/consensus_background.hpp"
+#include "core/image.hpp"
+#include "core/pixel.hpp"
+#include "core/simd/bit_rows.hpp"
+#include "core/simd/consensus_rows.hpp"
+#include "tests/core/simd_targets.hpp"
+
+#include <functional>
+#include <random>
+
+namespace rg {
+namespace {
+
+constexpr uint8_t kGuard = 0xA5;
+constexpr int kMostColumns = 257;
+constexpr int kSamples = 16;
+
+using Fill = std::function<uint8_t(int x, int row)>;
+
+/// What goes wrong in bytes goes wrong at the ends of their range and at steps between these.
+std::vector<Fill> fills() {
+  const auto noise = [](uint32_t mask) {
+    return [mask](int x, int row) {
+      return static_cast<uint8_t>(
+          mixHash(static_cast<uint32_t>(x), static_cast<uint32_t>(row), mask) & mask);
+    };
+  };
+  return {[](int, int) { return uint8_t{0}; },
+          [](int, int) { return uint8_t{255}; },
+          [](int x, int row) { return static_cast<uint8_t>((x + row) % 2 == 0 ? 0 : 255); },
+          [](int x, int row) { return static_cast<uint8_t>(x % 3 == 0 ? 254 : row % 2); },
+          [](int x, int row) { return static_cast<uint8_t>(120 + (x * 7 + row * 5) % 24); },
+          noise(255),
+          noise(15)};
+}
+
+/// Rows of bytes with guards behind what the functions may touch: whole words of columns.
+Image<uint8_t> filled(int rows, const Fill& fill) {
+  Image<uint8_t> image({kMostColumns + 100, rows});
+  image.fill(kGuard);
+  for (int y = 0; y < rows; ++y)
+    for (int x = 0; x < kMostColumns; ++x) image.at(x, y) = fill(x, y);
+  return image;
+}
+
+int padded(int width) {
+  return (width + 63) / 64 * 64;
+}
+
+void expectSame(const Image<uint8_t>& a, const Image<uint8_t>& b, int width) {
+  for (int x = 0; x < width; ++x) ASSERT_EQ(int{a.at(x, 0)}, int{b.at(x, 0)}) << "column " << x;
+}
+
+void expectGuarded(const Image<uint8_t>& a, const Image<uint8_t>& before, int from) {
+  for (int x = from; x < a.width(); ++x) ASSERT_EQ(int{a.at(x, 0)}, int{before.at(x, 0)}) << x;
+}
+
+template <class Check>
+void forAll(const Check& check) {
+  test::forEachTarget([&] {
+    int index = 0;
+    for (const Fill& fill : fills()) {
+      SCOPED_TRACE("fill " + std::to_string(index++));
+      for (int width = 1; width <= kMostColumns && !testing::Test::HasFailure(); ++width) {
+        SCOPED_TRACE("width " + std::to_string(width));
+        check(fill, width);
+      }
+    }
+  });
+}
+
+TEST(SimdRows, PackingIsThePlainOne) {
+  forAll([](const Fill& fill, int width) {
+    const Image<uint8_t> bytes = filled(1, fill);
+    constexpr uint64_t kUntouched = 0xA5A5A5A5A5A5A5A5;
+    for (const int value : {0, 1, 254, 255}) {
+      std::vector<uint64_t> expected(8, kUntouched), words(8, kUntouched);
+      plain::packEqualRow(bytes.row(0), width, static_cast<uint8_t>(value), expected.data());
+      simd::packEqualRow(bytes.row(0), width, static_cast<uint8_t>(value), words.data());
+      ASSERT_EQ(words, expected) << "value " << value;
+      ASSERT_EQ(words.at(static_cast<size_t>(padded(width) / 64)), kUntouched);
+    }
+  });
+}
+
+TEST(SimdRows, SmoothingIsThePlainOne) {
+  forAll([](const Fill& fill, int width) {
+    const Image<uint8_t> rows = filled(3, fill);
+    Image<uint8_t> expected = filled(1, [](int, int) { return kGuard; });
+    Image<uint8_t> out = filled(1, [](int, int) { return kGuard; });
+    const RowsAround in{rows.row(0), rows.row(1), rows.row(2), width};
+    plain::smoothRow(in, expected.row(0));
+    simd::smoothRow(in, out.row(0));
+    expectSame(out, expected, width);
+    expectGuarded(out, expected, width);
+  });
+}
+
+/// A picture row, its model and everything that is computed from them.
+struct Scene {
+  Scene(const Fill& fill, int channels)
+      : pixels(filled(3, fill)),
+        samples(filled(kSamples * channels, [&](int x, int y) { return fill(x, y / 3); })),
+        noise(filled(1, [&](int x, int) { return fill(x + 1, 1); })),
+        unrest(filled(1, [&](int x, int) { return fill(x, 2); })),
+        radii(filled(1, [](int, int) { return kGuard; })),
+        row{{pixels.row(0), pixels.row(1), pixels.row(2)},
+            samples.row(0),
+            samples.view().strideBytes,
+            channels,
+            kSamples,
+            0} {
+    // Near samples in places that move, so that every count of them occurs.
+    for (int y = 0; y < samples.height(); ++y)
+      for (int x = y % 5; x < kMostColumns; x += 1 + y % 7)
+        samples.at(x, y) = static_cast<uint8_t>(pixels.at(x, y % channels) ^ (y & 3));
+  }
+  [[nodiscard]] RadiusRow radius(int least, int brightness) const {
+    return {noise.row(0), unrest.row(0), static_cast<uint8_t>(least),
+            static_cast<uint8_t>(brightness)};
+  }
+  [[nodiscard]] VerdictRow out() { return {radii.row(0), raw.data(), strong.data()}; }
+
+  Image<uint8_t> pixels, samples, noise, unrest, radii;
+  ModelRow row;
+  std::array<uint64_t, 8> raw{}, strong{};
+};
+
+/// Calls check(expected, scene) with two scenes alike, of every width.
+template <class Check>
+void forAllScenes(const Check& check) {
+  test::forEachTarget([&] {
+    for (const Fill& fill : fills())
+      for (const int channels : {1, 3}) {
+        Scene expected(fill, channels), scene(fill, channels);
+        for (int width = 1; width <= kMostColumns && !testing::Test::HasFailure(); ++width) {
+          SCOPED_TRACE(std::to_string(channels) + " channels, width " + std::to_string(width));
+          expected.row.width = scene.row.width = width;
+          check(expected, scene);
+        }
+      }
+  });
+}
+
+TEST(SimdRows, VerdictsAreThePlainOnes) {
+  forAllScenes([](Scene& expected, Scene& scene) {
+    constexpr std::array<Tolerance, 4> kTolerances{{{8, 18}, {0, 0}, {3, 255}, {255, 255}}};
+    const int width = scene.row.width;
+    const auto [least, brightness] = kTolerances[static_cast<size_t>(width % 4)];
+    plain::judgeRow(expected.row, expected.radius(least, brightness), expected.out());
+    simd::judgeRow(scene.row, scene.radius(least, brightness), scene.out());
+    ASSERT_EQ(scene.raw, expected.raw) << "least " << least;
+    ASSERT_EQ(scene.strong, expected.strong) << "least " << least;
+    expectSame(scene.radii, expected.radii, width);
+    expectGuarded(scene.radii, filled(1, [](int, int) { return kGuard; }), padded(width));
+  });
+}
+
+TEST(SimdRows, NoiseIsThePlainOne) {
+  std::mt19937_64 random(3);
+  forAllScenes([&](Scene& expected, Scene& scene) {
+    const int width = scene.row.width;
+    std::array<uint64_t, 8> kept{};
+    for (uint64_t& word : kept) word = random() & random();
+    scene.noise.copyFrom(expected.noise);  // What lies behind the row's end may differ.
+    plain::followNoiseRow(expected.row, {expected.noise.row(0), kept.data()});
+    simd::followNoiseRow(scene.row, {scene.noise.row(0), kept.data()});
+    expectSame(scene.noise, expected.noise, width);
+    expectGuarded(scene.noise, expected.noise, padded(width));
+  });
+}
+
+}  // namespace
+}  // namespace rg
