@@ -47,11 +47,18 @@ struct Piece {
 
 struct PieceScratch {
   std::vector<uint32_t> parent;
-  std::vector<uint32_t> label;  ///< Of each cell: 1 + piece, 0 = none.
+  std::vector<uint32_t> label;                          ///< Of each cell: 1 + piece, 0 = none.
+  std::vector<uint32_t> firstColumn, columns, highest;  ///< Of cutPieces().
+  std::vector<Piece> cut;
 };
 
 /// The parts of the foreground whose owner is 0. owner: for each cell 1 + track or 0.
 void findPieces(const Evidence& evidence, std::span<const uint16_t> owner, PieceScratch& scratch,
                 std::vector<Piece>& pieces);
+
+/// Cuts pieces apart, from top to bottom, where two things seem to touch: where a column holds much
+/// less than some on either side. Without a joint a piece keeps its number; parts to the right get
+/// numbers after all pieces.
+void cutPieces(const Evidence& evidence, PieceScratch& scratch, std::vector<Piece>& pieces);
 
 }  // namespace rg

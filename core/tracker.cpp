@@ -35,6 +35,13 @@ uint32_t supportOf(const Track& track, const Sighting& s) {
   return usual == 0 ? 0 : static_cast<uint32_t>(uint64_t{s.cells} * 256 * 256 / usual);
 }
 
+/// Whether a box is about of a size; legs and arms change a width more than anything a height.
+bool isLike(const Box& box, const Extent& size) {
+  const int64_t height = box.height * int64_t{kUnit}, width = box.width * int64_t{kUnit};
+  return 4 * height >= 3 * int64_t{size.height} && 4 * height <= 5 * int64_t{size.height} &&
+         2 * width >= size.width && 2 * width <= 3 * int64_t{size.width};
+}
+
 }  // namespace
 
 Box Track::box() const {
@@ -113,11 +120,11 @@ void Tracker::update(const Evidence& evidence, std::span<const Group> groups, in
   findBlobs(evidence);
   giveBlobs(evidence);
   giveGroups(evidence, groups);
+  findNewcomers(evidence, params);
   sight(evidence);
   for (size_t i = 0; i < tracks_.size(); ++i) correct(i, stepNs);
-  findNewcomers(evidence, params);
   rejoin();
-  for (size_t i = 0; i < sightings_.size(); ++i) learnSize(i, evidence);
+  for (size_t i = 0; i < sightings_.size(); ++i) learnSize(i, stepNs, evidence);
   learnScale(evidence);
   joinDoubles(stepNs);
   findCompany(stepNs);
@@ -184,12 +191,11 @@ void Tracker::sight(const Evidence& e) {
         }
       }
     const Track& track = tracks_[i];
-    const int64_t height = s.box.height * int64_t{kUnit}, width = s.box.width * int64_t{kUnit};
     const bool isSole = blobOf_[i] != 0 && soleTrack_[blobOf_[i]] == i + 1;
     const bool isUsual =
-        (isSole && !isSizeKnown(track)) ||
-        (4 * height >= 3 * track.size.height && 4 * height <= 5 * track.size.height &&
-         2 * width >= track.size.width && 2 * width <= 3 * track.size.width);
+        isLike(s.box, track.size) ||
+        (isSole && (!isSizeKnown(track) || isLike(s.box, scale_.at(s.box.bottom()))));
+    s.isSole = isSole;
     s.isWhole = !s.box.isEmpty() && isUsual && 5 * s.othersCells < s.boxCells;
   }
 }

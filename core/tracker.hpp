@@ -34,6 +34,7 @@ struct Track {
   std::vector<uint64_t> parents;
   int64_t unseenNs = 0;  ///< Since it was last seen.
   int64_t ageNs = 0;
+  int64_t seenNs = 0;                 ///< Of its age.
   int64_t stillNs = 0;                ///< Since it last left its place.
   int32_t stillX = 0, stillFoot = 0;  ///< That place.
   uint32_t ageFrames = 0;
@@ -45,6 +46,9 @@ struct Track {
   uint64_t company = 0;                 ///< Smallest id of those that it shares a blob with.
   uint64_t nextCompany = 0;
   int64_t companyNs = 0;  ///< Since nextCompany holds.
+  int64_t apartNs = 0;    ///< For how long it was seen in a blob of its own.
+  int64_t otherNs = 0;    ///< Since its own blob is of another size than it should be.
+  int64_t partedNs = 0;   ///< Since it consists of several blobs.
   int64_t doubleNs = 0;   ///< Since it looks like a part of another track.
   bool isOver = false;
   bool hasMoved = false;
@@ -65,6 +69,8 @@ struct Sighting {
   uint32_t cells = 0;        ///< That it owns.
   uint32_t boxCells = 0;     ///< Of its fitted box within the frame.
   uint32_t othersCells = 0;  ///< Of its fitted box that other tracks own.
+  bool isParted = false;     ///< Other blobs beside its own seem to be parts of it.
+  bool isSole = false;       ///< Nobody else is in its blob.
   bool isWhole = false;      ///< `box` shows all of it.
   Box box;                   ///< Pixels, around the groups that it owns.
   LookCounts look;
@@ -124,16 +130,19 @@ class Tracker {
   void giveGroups(const Evidence& evidence, std::span<const Group> groups);
   void findBlobs(const Evidence& evidence);
   void giveBlobs(const Evidence& evidence);
+  void spreadOwners(const Evidence& evidence);
   void sight(const Evidence& evidence);
   [[nodiscard]] bool isSizeKnown(const Track& track) const;
   void findNewcomers(const Evidence& evidence, const TrackerParams& params);
   void describeNewcomers(const Evidence& evidence);
+  void giveFragments(const Evidence& evidence);
+  void giveNewcomers();
   void dropSmall(const Evidence& evidence, const TrackerParams& params);
   void rejoin();
   [[nodiscard]] int64_t rejoinCost(const Track& track, const Newcomer& newcomer) const;
   static void comeBack(Track& track, const Newcomer& newcomer);
   void correct(size_t index, int64_t stepNs);
-  void learnSize(size_t index, const Evidence& evidence);
+  void learnSize(size_t index, int64_t stepNs, const Evidence& evidence);
   [[nodiscard]] uint64_t parentOf(const Newcomer& newcomer) const;
   void begin(const Newcomer& newcomer);
   [[nodiscard]] bool isCovered(const Track& track) const;
@@ -171,6 +180,7 @@ class Tracker {
   PieceScratch blobScratch_;
   std::vector<uint32_t> blobCells_;
   std::vector<uint32_t> blobOf_;     ///< Of each track: 1 + blob, 0 = none.
+  std::vector<uint16_t> distance_;   ///< Of each cell from those that owned it first.
   std::vector<uint16_t> soleTrack_;  ///< Of each blob (from 1): 1 + the only track in it, or 0.
   std::vector<int> trackOfNewcomer_;
   std::vector<uint32_t> touching_;

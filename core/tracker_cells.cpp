@@ -7,6 +7,9 @@
 namespace rg {
 namespace {
 
+// What was seen as one may be hidden in its middle, but not for so long.
+constexpr int64_t kPartedNs = 500'000'000;
+
 /// pairs(f) calls f(key, value) for everything that is counted.
 template <class Pairs>
 void findMajorities(size_t keys, std::vector<Majority>& result, const Pairs& pairs) {
@@ -15,12 +18,19 @@ void findMajorities(size_t keys, std::vector<Majority>& result, const Pairs& pai
   pairs([&](size_t key, uint32_t value) { result[key].count(value); });
 }
 
+/// Whether a blob is another thing than the one beside it: about as high, and in other columns.
+bool standBeside(const Box& mine, const Box& other) {
+  const int columns = std::min(mine.right(), other.right()) - std::max(mine.x, other.x);
+  return 2 * columns < std::min(mine.width, other.width) && 2 * other.height >= mine.height;
+}
+
 }  // namespace
 
 /// Connected parts of all the foreground, and for each track the one that it has most cells in.
 void Tracker::findBlobs(const Evidence& e) {
   noOwner_.assign(e.group.size(), 0);
   findPieces(e, noOwner_, blobScratch_, blobs_);
+  if (!scale_.isUniform()) cutPieces(e, blobScratch_, blobs_);
   blobOf_.assign(tracks_.size(), 0);
   soleTrack_.assign(blobs_.size() + 1, 0);
   blobCells_.assign(blobs_.size() + 1, 0);
@@ -51,24 +61,53 @@ void Tracker::findBlobs(const Evidence& e) {
     if (sole == kSeveral) sole = 0;
 }
 
-/// As long as sizes are not known one blob is one object: it has all of it, and nothing of another
-/// blob that stands beside it and is about as high.
+/// As long as the scene doesn't say how large things are, one blob is one object: whoever is in it
+/// shares all of it, each the cells that are nearest, and has nothing of another blob that stands
+/// beside it and is about as high.
 void Tracker::giveBlobs(const Evidence& e) {
+  if (scale_.isUniform()) return;
   for (size_t cell = 0; cell < owner_.size(); ++cell) {
     const uint32_t blob = blobScratch_.label[cell];
-    if (blob == 0) continue;
-    const uint16_t sole = soleTrack_[blob], owner = owner_[cell];
-    if (owner == 0) {
-      if (sole != 0 && e.group[cell] != 0 && !isSizeKnown(tracks_[sole - 1u])) owner_[cell] = sole;
-      continue;
-    }
+    const uint16_t owner = owner_[cell];
+    if (blob == 0 || owner == 0) continue;
     const uint32_t main = blobOf_[owner - 1u];
-    if (main == blob || isSizeKnown(tracks_[owner - 1u])) continue;
+    if (main == blob) continue;
     const Box &mine = blobs_[main - 1].box, &other = blobs_[blob - 1].box;
-    const int columns = std::min(mine.right(), other.right()) - std::max(mine.x, other.x);
-    if (2 * columns < std::min(mine.width, other.width) && 2 * other.height >= mine.height)
-      owner_[cell] = 0;
+    if (!standBeside(mine, other)) continue;
+    sightings_[owner - 1u].isParted = true;
+    const Track& track = tracks_[owner - 1u];
+    if (!isSizeKnown(track) || track.partedNs > kPartedNs) owner_[cell] = 0;
   }
+  spreadOwners(e);
+}
+
+/// Two passes over the grid, each handing owners on with a distance of 3 straight and 4 diagonally.
+void Tracker::spreadOwners(const Evidence& e) {
+  constexpr uint16_t kFar = UINT16_MAX;
+  distance_.assign(owner_.size(), kFar);
+  for (size_t cell = 0; cell < owner_.size(); ++cell)
+    if (owner_[cell] != 0) distance_[cell] = 0;
+  const auto pass = [&](int direction) {
+    const Point sources[] = {{-direction, 0}, {-1, -direction}, {0, -direction}, {1, -direction}};
+    const int count = e.grid.width * e.grid.height;
+    for (int i = 0; i < count; ++i) {
+      const int at = direction > 0 ? i : count - 1 - i;
+      const auto cell = static_cast<size_t>(at);
+      if (e.group[cell] == 0) continue;
+      const int x = at % e.grid.width, y = at / e.grid.width;
+      for (const Point& d : sources) {
+        if (!boundsOf(e.grid).contains({x + d.x, y + d.y})) continue;
+        const size_t other = e.at(x + d.x, y + d.y);
+        const uint32_t far = distance_[other] + (d.x != 0 && d.y != 0 ? 4u : 3u);
+        if (blobScratch_.label[other] != blobScratch_.label[cell] || far >= distance_[cell])
+          continue;
+        distance_[cell] = static_cast<uint16_t>(far);
+        owner_[cell] = owner_[other];
+      }
+    }
+  };
+  pass(1);
+  pass(-1);
 }
 
 /// What sticks out of a fitted box (an arm, a long stride) goes with its group, when most of the

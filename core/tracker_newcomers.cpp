@@ -25,12 +25,12 @@ bool touchesBorder(const Box& box, Size frame) {
 
 /// Pieces of one body lie above each other: they share most of their columns, the gap between them
 /// is short and together they are no higher than one thing.
-bool belongTogether(const Newcomer& a, const Newcomer& b, const SceneScale& scale) {
-  const int shared = std::min(a.box.right(), b.box.right()) - std::max(a.box.x, b.box.x);
-  if (2 * shared < std::min(a.box.width, b.box.width)) return false;
-  const Box both = unite(a.box, b.box);
-  const int gap = std::max(a.box.y, b.box.y) - std::min(a.box.bottom(), b.box.bottom());
-  if (!scale.isKnown()) return 4 * gap <= std::max(a.box.height, b.box.height);
+bool belongTogether(const Box& a, const Box& b, const SceneScale& scale) {
+  const int shared = std::min(a.right(), b.right()) - std::max(a.x, b.x);
+  if (2 * shared < std::min(a.width, b.width)) return false;
+  const Box both = unite(a, b);
+  const int gap = std::max(a.y, b.y) - std::min(a.bottom(), b.bottom());
+  if (!scale.isUniform()) return 4 * gap <= std::max(a.height, b.height);
   const Extent expected = scale.at(both.bottom());
   return 4 * gap * kUnit <= expected.height && 5 * expected.height >= 4 * both.height * kUnit &&
          2 * both.width * kUnit <= 3 * expected.width;
@@ -40,6 +40,7 @@ bool belongTogether(const Newcomer& a, const Newcomer& b, const SceneScale& scal
 
 void Tracker::findNewcomers(const Evidence& e, const TrackerParams& params) {
   findPieces(e, owner_, pieceScratch_, pieces_);
+  if (!scale_.isUniform()) cutPieces(e, pieceScratch_, pieces_);
   newcomers_.clear();
   newcomerOf_.assign(pieces_.size(), -1);
   // Large pieces first, so that the limit drops the small ones; specks of a cell or two never
@@ -58,7 +59,7 @@ void Tracker::findNewcomers(const Evidence& e, const TrackerParams& params) {
     piece.cells = pieces_[i].cells;
     int host = -1;
     for (size_t n = 0; n < newcomers_.size() && host < 0; ++n)
-      if (belongTogether(newcomers_[n], piece, scale_)) host = static_cast<int>(n);
+      if (belongTogether(newcomers_[n].box, piece.box, scale_)) host = static_cast<int>(n);
     if (host < 0) {
       host = static_cast<int>(newcomers_.size());
       newcomers_.push_back(piece);
@@ -70,7 +71,38 @@ void Tracker::findNewcomers(const Evidence& e, const TrackerParams& params) {
     newcomerOf_[i] = host;
   }
   describeNewcomers(e);
+  giveFragments(e);
   dropSmall(e, params);
+}
+
+/// As long as the scene doesn't say how large things are, a small piece right above or below an
+/// object is a part of it: a foot, or a head before a background like it.
+void Tracker::giveFragments(const Evidence& e) {
+  if (scale_.isUniform()) return;
+  trackOfNewcomer_.assign(newcomers_.size(), -1);
+  for (size_t n = 0; n < newcomers_.size(); ++n) {
+    Newcomer& newcomer = newcomers_[n];
+    for (size_t t = 0; t < tracks_.size() && newcomer.cells > 0; ++t) {
+      if (blobOf_[t] == 0) continue;
+      const Piece& blob = blobs_[blobOf_[t] - 1];
+      const Box box = toPixels(blob.box, e.stepPx, e.frame);
+      if (2 * newcomer.cells > blob.cells || !belongTogether(box, newcomer.box, scale_)) continue;
+      sightings_[t].box = unite(sightings_[t].box, newcomer.box);
+      trackOfNewcomer_[n] = static_cast<int>(t);
+      newcomer.cells = 0;
+    }
+  }
+  giveNewcomers();
+}
+
+/// Cells of the newcomers that have found a track go to it.
+void Tracker::giveNewcomers() {
+  for (size_t cell = 0; cell < owner_.size(); ++cell) {
+    const uint32_t piece = pieceScratch_.label[cell];
+    if (piece == 0 || newcomerOf_[piece - 1] < 0) continue;
+    const int track = trackOfNewcomer_[static_cast<size_t>(newcomerOf_[piece - 1])];
+    if (track >= 0) owner_[cell] = static_cast<uint16_t>(track + 1);
+  }
 }
 
 /// Looks of the newcomers, and the tracks whose blob they come out of.
@@ -160,12 +192,7 @@ void Tracker::rejoin() {
     trackOfNewcomer_[n] = static_cast<int>(tracks_.size());
     begin(newcomers_[n]);
   }
-  for (size_t cell = 0; cell < owner_.size(); ++cell) {
-    const uint32_t piece = pieceScratch_.label[cell];
-    if (piece == 0 || newcomerOf_[piece - 1] < 0) continue;
-    const int track = trackOfNewcomer_[static_cast<size_t>(newcomerOf_[piece - 1])];
-    if (track >= 0) owner_[cell] = static_cast<uint16_t>(track + 1);
-  }
+  giveNewcomers();
 }
 
 /// 0 … 2000, or kForbidden: how unlikely it is that the newcomer is the track that is missing.

@@ -10,9 +10,10 @@ namespace {
 
 constexpr int kUnit = kPositionUnit;
 constexpr uint32_t kConfirmHits = 3;
-constexpr int64_t kFlickerNs = 250'000'000;  // A new track that is unseen for longer was nothing.
-constexpr int64_t kDoubleNs = 500'000'000;   // One body for so long, two tracks are one.
-constexpr int64_t kMissNs = 400'000'000;     // Unseen for longer without a reason, it is lost.
+constexpr int64_t kFlickerNs = 250'000'000;    // A new track that is unseen for longer was nothing.
+constexpr int64_t kDoubleNs = 500'000'000;     // One body for so long, two tracks are one.
+constexpr int64_t kOtherSizeNs = 500'000'000;  // Of another size for so long, it has changed.
+constexpr int64_t kMissNs = 400'000'000;       // Unseen for longer without a reason, it is lost.
 // A new thing is trusted once it has moved; what creeps more slowly than its place in this time is
 // the shape of something that left, which the background takes back from its borders.
 constexpr int64_t kCreepNs = 2'000'000'000;
@@ -25,9 +26,15 @@ int32_t mix(int32_t old, int64_t fresh, int64_t oldWeight) {
 }  // namespace
 
 /// From a track that was seen whole: its own size and, every half height of its way, the scene's.
-void Tracker::learnSize(size_t index, const Evidence& e) {
+void Tracker::learnSize(size_t index, int64_t stepNs, const Evidence& e) {
   Track& track = tracks_[index];
   const Sighting& s = sightings_[index];
+  if (track.isSeen && s.isSole) track.apartNs += stepNs;
+  if (track.isSeen) track.seenNs += stepNs;
+  track.partedNs = s.isParted ? track.partedNs + stepNs : 0;
+  const bool isWrong = track.isSeen && s.isSole && !s.isWhole && !scale_.isUniform();
+  track.otherNs = isWrong ? track.otherNs + stepNs : 0;
+  if (track.otherNs >= kOtherSizeNs) track.sizeSamples = 0;
   if (!s.isWhole || !track.isSeen) return;
   const Box frame = boundsOf(e.frame);
   const bool isCut = s.box.x <= frame.x || s.box.y <= frame.y || s.box.right() >= frame.right() ||
@@ -58,7 +65,7 @@ void Tracker::learnScale(const Evidence& e) {
   for (size_t i = 0; i < sightings_.size(); ++i) {
     Track& track = tracks_[i];
     const int64_t dx = track.x - track.learntX, dy = track.foot - track.learntFoot;
-    const int64_t half = track.size.height / 2;
+    const int64_t half = track.size.height / (scale_.isKnown() ? 2 : 6);
     if (!track.isConfirmed || blobOf_[i] == 0 || dx * dx + dy * dy < half * half) continue;
     const Box box = blobs_[blobOf_[i] - 1].box;
     if (box.x <= 0 || box.y <= 0 || box.right() >= e.grid.width || box.bottom() >= e.grid.height)
@@ -85,8 +92,11 @@ bool Tracker::areOneBody(size_t a, size_t b) const {
   const Track &p = tracks_[a], &q = tracks_[b];
   const Box first = p.box(), second = q.box(), both = unite(first, second);
   const int columns = std::min(first.right(), second.right()) - std::max(first.x, second.x);
+  if (!scale_.isUniform() && blobOf_[a] != 0 && blobOf_[a] == blobOf_[b] &&
+      std::min(p.apartNs, q.apartNs) < kDoubleNs)
+    return true;
   if (5 * columns < 3 * std::min(first.width, second.width)) return false;
-  if (!scale_.isKnown()) {
+  if (!scale_.isUniform()) {
     const int rows = std::min(first.bottom(), second.bottom()) - std::max(first.y, second.y);
     const int least = std::min(first.height, second.height);
     return 5 * rows < 2 * least && 4 * rows > -least;
@@ -112,9 +122,11 @@ void Tracker::joinDoubles(int64_t stepNs) {
       continue;
     }
     track.doubleNs += stepNs;
-    if (track.doubleNs < kDoubleNs) continue;
+    // Nothing says that it is a thing of its own when it was apart for a shorter time.
+    if (track.doubleNs < (scale_.isUniform() ? kDoubleNs : std::min(kDoubleNs, track.apartNs)))
+      continue;
     Track& kept = tracks_[partner];
-    if (!scale_.isKnown()) {
+    if (!scale_.isUniform()) {
       const Box both = unite(kept.box(), track.box());
       kept.x = (2 * both.x + both.width) * kUnit / 2;
       kept.foot = both.bottom() * kUnit;
@@ -171,7 +183,9 @@ void Tracker::settleState(Track& track, int64_t stepNs) const {
   if (!track.isConfirmed) return;
   if (track.isSeen)
     track.state = track.stillNs >= kStillNs ? ObjectState::Stopped : ObjectState::Tracked;
-  else if (track.unseenNs <= kMissNs || (track.state != ObjectState::Lost && isCovered(track)))
+  // What was seen for a moment only is not believed to be there when it isn't seen.
+  else if (2 * track.unseenNs <= track.seenNs &&
+           (track.unseenNs <= kMissNs || (track.state != ObjectState::Lost && isCovered(track))))
     track.state = ObjectState::Occluded;
   else
     track.state = ObjectState::Lost;

@@ -4,6 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <string>
+
 namespace rg {
 namespace {
 
@@ -41,6 +44,43 @@ TEST(Evidence, OwnedCellsAreNoPieces) {
   std::vector<uint16_t> owner(9, 0);
   owner[3] = owner[4] = owner[5] = 1;
   EXPECT_THAT(cellsOfPieces(e, owner), ElementsAre(3, 3));
+}
+
+/// Each row of the labels that cutPieces leaves, a digit a cell.
+std::vector<std::string> cutRows(const std::vector<std::string>& rows) {
+  const Evidence e = drawn(rows);
+  PieceScratch scratch;
+  std::vector<Piece> pieces;
+  findPieces(e, std::vector<uint16_t>(e.group.size(), 0), scratch, pieces);
+  cutPieces(e, scratch, pieces);
+  std::vector<std::string> result(rows.size());
+  std::vector<Piece> counted(pieces.size());
+  for (int y = 0; y < e.grid.height; ++y)
+    for (int x = 0; x < e.grid.width; ++x) {
+      const uint32_t label = scratch.label[e.at(x, y)];
+      result[static_cast<size_t>(y)] += label == 0 ? '.' : static_cast<char>('0' + label);
+      if (label == 0) continue;
+      ++counted[label - 1].cells;
+      counted[label - 1].box = unite(counted[label - 1].box, {x, y, 1, 1});
+    }
+  for (size_t i = 0; i < pieces.size(); ++i) {
+    EXPECT_EQ(pieces[i].cells, counted[i].cells);
+    EXPECT_EQ(pieces[i].box, counted[i].box);
+  }
+  return result;
+}
+
+TEST(Evidence, TwoThingsThatTouchAreCutAtTheJoint) {
+  EXPECT_THAT(cutRows({"##...##.#", "##...##.#", "#######.#", "##...##.#"}),
+              ElementsAre("11...33.2", "11...33.2", "1133333.2", "11...33.2"));
+}
+
+TEST(Evidence, ABodyIsNotCutFromItsLegsAndArms) {
+  const std::vector<std::string> body = {"...##...", "..####..", ".######.",
+                                         "...##...", "..####..", ".##..##."};
+  std::vector<std::string> labels = body;
+  for (std::string& row : labels) std::replace(row.begin(), row.end(), '#', '1');
+  EXPECT_EQ(cutRows(body), labels);
 }
 
 TEST(Evidence, CellsSampleTheGroupsThatAreNoBackground) {

@@ -183,6 +183,39 @@ TEST(Objects, ABodyOfSeveralColoursIsOneObject) {
   EXPECT_EQ(objects->regionObject, (std::vector<uint64_t>{1, 1}));
 }
 
+TEST(Objects, AFootApartFromItsBodyIsAPartOfIt) {
+  Scene scene;
+  for (int i = 0; i < 20; ++i) {
+    const auto objects =
+        scene.show({{{40 + 4 * i, 60, 24, 60}, kRed}, {{50 + 4 * i, 124, 14, 8}, kBlue}});
+    ASSERT_LE(objects->objects.size(), 1u) << "frame " << i;
+    if (i >= 5) {
+      EXPECT_GT(overlap(objects->objects[0].box, {40 + 4 * i, 60, 24, 72}), 0.9);
+    }
+  }
+}
+
+TEST(Objects, PartsThatWereApartForAMomentBecomeOneObject) {
+  Scene scene;
+  std::shared_ptr<const Objects> objects;
+  for (int i = 0; i < 30; ++i) {
+    std::vector<Body> bodies = {{{40 + 4 * i, 60, 20, 30}, kRed},
+                                {{50 + 4 * i, 100, 30, 40}, kBlue}};
+    if (i > 5) bodies.push_back({{40 + 4 * i, 80, 30, 30}, kGreen});
+    objects = scene.show(bodies);
+  }
+  EXPECT_EQ(toldOf(*objects).size(), 1u);
+  EXPECT_EQ(objects->objects.size(), 1u);
+}
+
+TEST(Objects, WhatIsHiddenSoonAfterItWasFoundIsNotGuessedAt) {
+  Scene scene;
+  for (int i = 0; i < 6; ++i) scene.show({{{40 + 8 * i, 60, 24, 60}, kRed}});
+  for (int i = 0; i < 5; ++i) scene.show({});
+  const auto objects = scene.show({});
+  for (const Object& object : objects->objects) EXPECT_EQ(object.state, ObjectState::Lost);
+}
+
 TEST(Objects, WhatNeverMovesIsNotTold) {
   Scene scene;
   for (int i = 0; i < 100; ++i)
