@@ -16,11 +16,11 @@ void padRow(const uint8_t* from, int width, int before, std::span<uint8_t> to) {
   std::memset(to.data() + end, from[width - 1], to.size() - end);
 }
 
-void addBlockPlainly(const uint8_t* block, const PaddedLuma& previous, Point at, uint32_t* sums) {
-  const int reach = previous.reach();
+void addBlockPlainly(const uint8_t* block, const Search& search, Point at, uint32_t* sums) {
+  const int reach = search.reach;
   for (int ey = -reach; ey <= reach; ++ey)
     for (int ex = -reach; ex <= reach; ++ex, ++sums) {
-      const uint8_t* before = previous.along(at.x + ex, at.y + ey);
+      const uint8_t* before = search.previous.along(at.x + ex, at.y + ey);
       for (int i = 0; i < kBlockWidth; ++i)
         *sums += static_cast<uint32_t>(absDiff(block[i], before[i]));
     }
@@ -39,10 +39,10 @@ void PaddedLuma::build(ImageView<const uint8_t> luma, int reach, const Executor&
 }
 
 void addPartsPlainly(std::span<const MatchedPart> parts, ImageView<const uint8_t> luma,
-                     const PaddedLuma& previous, std::span<uint32_t> sums) {
+                     const Search& search, std::span<uint32_t> sums) {
   for (const MatchedPart& part : parts)
     forBlocks(part, [&](int x, int y) {
-      addBlockPlainly(luma.row(y) + x, previous, {x, y}, sums.data());
+      addBlockPlainly(luma.row(y) + x, search, {x, y}, sums.data());
     });
 }
 

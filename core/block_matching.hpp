@@ -48,13 +48,19 @@ struct MatchScratch {
   Image<uint16_t> sums;   ///< By shift, of at most 64 blocks.
 };
 
+/// Where parts are looked for: shifts of up to reach, at most the padding's.
+struct Search {
+  const PaddedLuma& previous;
+  int reach;
+};
+
 /// Adds the parts' sums to `sums`, of shiftCount(reach) numbers. On the best instructions that the
 /// machine has; the same bits as addPartsPlainly on all.
 void addParts(std::span<const MatchedPart> parts, ImageView<const uint8_t> luma,
-              const PaddedLuma& previous, MatchScratch& scratch, std::span<uint32_t> sums);
+              const Search& search, MatchScratch& scratch, std::span<uint32_t> sums);
 
 /// The same pixel by pixel: what it means.
 void addPartsPlainly(std::span<const MatchedPart> parts, ImageView<const uint8_t> luma,
-                     const PaddedLuma& previous, std::span<uint32_t> sums);
+                     const Search& search, std::span<uint32_t> sums);
 
 }  // namespace rg

@@ -99,9 +99,10 @@ RegionMotion estimateMotion(std::span<const Sum> sums, int reach, const Gradient
                       0};
   if (surface.isOnBorder(v)) return motion;
   const auto pixels = static_cast<int64_t>(gradients.pixels);
-  const int64_t reliability =
-      std::min({gradientReliability(gradients), curvatureReliability(surface, v, pixels),
-                peakReliability(surface, v, pixels)});
+  int64_t reliability =
+      std::min(gradientReliability(gradients), curvatureReliability(surface, v, pixels));
+  if (v != Point{} || motion.sad > 0)
+    reliability = std::min(reliability, peakReliability(surface, v, pixels));
   motion.reliability = static_cast<uint16_t>(std::clamp<int64_t>(reliability, 0, kFullReliability));
   return motion;
 }

@@ -24,7 +24,8 @@ inline void add(GradientSums& to, const GradientSums& from) {
   to.pixels += from.pixels;
 }
 
-/// The best whole-pixel shift. sums: as core/block_matching.hpp orders them.
+/// The best whole-pixel shift. sums: as core/block_matching.hpp orders them. Where nothing changed
+/// the shifts farther than 1 px don't count: the result is the same for any reach.
 template <class Sum>
 [[nodiscard]] RegionMotion estimateMotion(std::span<const Sum> sums, int reach,
                                           const GradientSums& gradients);

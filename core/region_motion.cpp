@@ -5,10 +5,12 @@
 #include "core/matched_blocks.hpp"
 #include "core/motion_estimate.hpp"
 #include "core/motion_refinement.hpp"
+#include "core/normal_sums.hpp"
 #include "core/pool.hpp"
 
 #include <algorithm>
-#include <numeric>
+#include <array>
+#include <cstring>
 #include <utility>
 
 namespace rg {
@@ -31,22 +33,23 @@ struct Group {
   size_t last = 0;
 };
 
-GradientSums gradientsOf(const MatchedPart& part, ImageView<const uint8_t> luma) {
-  GradientSums sums;
-  sums.pixels = part.pixels();
-  forBlocks(part, [&](int x0, int y) {
-    const uint8_t* row = luma.row(y);
-    const uint8_t* above = luma.row(std::max(y - 1, 0));
-    const uint8_t* below = luma.row(std::min(y + 1, luma.height() - 1));
-    for (int x = x0; x < x0 + kBlockWidth; ++x) {
-      const int dx = row[std::min(x + 1, luma.width() - 1)] - row[std::max(x - 1, 0)];
-      const int dy = below[x] - above[x];
-      sums.xx += dx * dx;
-      sums.xy += dx * dy;
-      sums.yy += dy * dy;
-    }
+GradientSums gradientsOf(std::span<const MatchedPart> parts, ImageView<const uint8_t> luma,
+                         const PaddedLuma& previous) {
+  const NormalSums sums = sumNormals(parts, luma, previous, {}, kNoLimit);
+  GradientSums gradients{sums.xx, sums.xy, sums.yy, 0};
+  for (const MatchedPart& part : parts) gradients.pixels += part.pixels();
+  return gradients;
+}
+
+bool isUnchanged(std::span<const MatchedPart> parts, ImageView<const uint8_t> luma,
+                 ImageView<const uint8_t> previous) {
+  return std::all_of(parts.begin(), parts.end(), [&](const MatchedPart& part) {
+    bool isSame = true;
+    forBlocks(part, [&](int x, int y) {
+      isSame = isSame && std::memcmp(luma.row(y) + x, previous.row(y) + x, kBlockWidth) == 0;
+    });
+    return isSame;
   });
-  return sums;
 }
 
 class CpuMotion : public MotionStage {
@@ -59,6 +62,7 @@ class CpuMotion : public MotionStage {
 
  private:
   void match(const Graph& graph, const MotionParams& params, Motion& motion);
+  void findStill(const Labels& labels, Motion& motion);
   void cutChunks();
   void matchBatch(size_t first, size_t last, const Labels& labels);
   void closeBatch(size_t first, size_t last, Motion& motion);
@@ -77,6 +81,7 @@ class CpuMotion : public MotionStage {
   std::shared_ptr<const Picture> previous_;
   PaddedLuma padded_;
   MatchedBlocks blocks_;
+  std::vector<uint8_t> isStill_;  ///< By label: none of its matched pixels has changed.
   std::vector<Chunk> chunks_;
   std::vector<Group> groups_;
   int reach_ = 0;
@@ -96,6 +101,7 @@ Result<std::shared_ptr<const Motion>> CpuMotion::process(std::shared_ptr<const G
   motion->size = graph->size;
   motion->status = Status::Skipped;
   motion->regions.assign(graph->regions.size(), {});
+  motion->matchedBlocks = motion->stillBlocks = 0;
   if (graph->status != Status::Skipped) {
     std::shared_ptr<const Picture> picture = graph->labels->picture;
     if (previous_ && previous_->size() == picture->size()) {
@@ -116,11 +122,12 @@ void CpuMotion::match(const Graph& graph, const MotionParams& params, Motion& mo
   blocks_.find(labels.ids, graph.regions, *context_.cpu);
   if (blocks_.parts().empty()) return;
   padded_.build(previous_->luma(), reach_, *context_.cpu);
+  scratch_.resize(static_cast<size_t>(context_.cpu->threads()));
+  findStill(labels, motion);
   cutChunks();
   const size_t slots = std::min(kMostChunksInBatch, kBatchBytes / (shifts_ * sizeof(uint32_t)));
   sums_.resize(slots * shifts_);
   gradients_.resize(slots);
-  scratch_.resize(static_cast<size_t>(context_.cpu->threads()));
   carry_.assign(shifts_, 0);
   carriedGradients_ = {};
   for (size_t first = 0; first < chunks_.size(); first += slots) {
@@ -143,6 +150,26 @@ void CpuMotion::refine(const Labels& labels, Motion& motion) {
   });
 }
 
+// Where nothing changed no shift is better than none, and of the others only the nearest count.
+void CpuMotion::findStill(const Labels& labels, Motion& motion) {
+  isStill_.assign(size_t{labels.count} + 1, 0);
+  context_.cpu->forEach(static_cast<int>(labels.count), [&](int i, int thread) {
+    const auto label = static_cast<uint32_t>(i) + 1;
+    const auto parts = blocks_.partsOf(label);
+    const ImageView<const uint8_t> luma = labels.picture->luma();
+    if (parts.empty() || !isUnchanged(parts, luma, previous_->luma())) return;
+    isStill_[label] = 1;
+    std::array<uint32_t, shiftCount(1)> sums{};
+    addParts(parts, luma, {padded_, 1}, scratch_[static_cast<size_t>(thread)], sums);
+    motion.regions[label - 1] =
+        estimateMotion<uint32_t>(sums, 1, gradientsOf(parts, luma, padded_));
+  });
+  for (const MatchedPart& part : blocks_.parts()) {
+    motion.matchedBlocks += part.pixels() / kBlockWidth;
+    if (isStill_[part.label] != 0) motion.stillBlocks += part.pixels() / kBlockWidth;
+  }
+}
+
 void CpuMotion::cutChunks() {
   const std::span<const MatchedPart> parts = blocks_.parts();
   chunks_.clear();
@@ -151,7 +178,7 @@ void CpuMotion::cutChunks() {
     uint32_t last = first + 1;
     while (last < count && last - first < kPartsPerChunk && parts[last].label == parts[first].label)
       ++last;
-    chunks_.push_back({first, last});
+    if (isStill_[parts[first].label] == 0) chunks_.push_back({first, last});
     first = last;
   }
 }
@@ -163,9 +190,8 @@ void CpuMotion::matchBatch(size_t first, size_t last, const Labels& labels) {
     const Chunk& chunk = chunks_[first + slot];
     const auto parts = blocks_.parts().subspan(chunk.first, chunk.last - chunk.first);
     std::fill(sumsOf(slot).begin(), sumsOf(slot).end(), 0u);
-    addParts(parts, luma, padded_, scratch_[static_cast<size_t>(thread)], sumsOf(slot));
-    gradients_[slot] = {};
-    for (const MatchedPart& part : parts) add(gradients_[slot], gradientsOf(part, luma));
+    addParts(parts, luma, {padded_, reach_}, scratch_[static_cast<size_t>(thread)], sumsOf(slot));
+    gradients_[slot] = gradientsOf(parts, luma, padded_);
   });
 }
 

@@ -37,6 +37,8 @@ struct Motion {
                                     ///< with reliability 0.
   std::shared_ptr<const Graph> graph;
   std::vector<RegionMotion> regions;
+  uint32_t matchedBlocks = 0;  ///< Of 4x1 pixels, over all regions.
+  uint32_t stillBlocks = 0;    ///< Of those, in regions where no pixel changed: not searched.
 
   void dropSources() { graph.reset(); }
 };

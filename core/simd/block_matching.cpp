@@ -35,13 +35,13 @@ struct BlockList {
 };
 
 inline BlockList listBlocks(const MatchedPart& part, ImageView<const uint8_t> luma,
-                            const PaddedLuma& previous) {
+                            const Search& search) {
   BlockList list;
   const int first = std::countr_zero(part.blocks) / 2;
   const int last = (63 - std::countl_zero(part.blocks)) / 2;
   list.rows = last - first + 1;
-  list.stride = previous.stride();
-  list.reference = previous.along(part.x() - previous.reach(), part.y() + first - previous.reach());
+  list.stride = search.previous.stride();
+  list.reference = search.previous.along(part.x() - search.reach, part.y() + first - search.reach);
   for (uint64_t left = part.blocks; left != 0; left &= left - 1) {
     const int bit = std::countr_zero(left);
     const int y = part.y() + bit / 2, x = part.x() + bit % 2 * kBlockWidth;
@@ -196,29 +196,31 @@ void moveSums(int reach, MatchScratch& scratch, uint32_t* sums) {
   const int side = 2 * reach + 1, whole = side / lanes * lanes;
   const auto tail = hn::FirstN(d32, static_cast<size_t>(side - whole));
   for (int ey = 0; ey < side; ++ey, sums += side) {
-    const uint16_t* from = scratch.sums.row(ey);
+    uint16_t* from = scratch.sums.row(ey);
+    const auto take = [&](int ex) {
+      const auto sum = hn::PromoteTo(d32, hn::Load(d16, from + ex));
+      hn::Store(hn::Zero(d16), d16, from + ex);
+      return sum;
+    };
     for (int ex = 0; ex < whole; ex += lanes)
-      hn::StoreU(hn::Add(hn::LoadU(d32, sums + ex), hn::PromoteTo(d32, hn::Load(d16, from + ex))),
-                 d32, sums + ex);
-    if (whole == side) continue;
-    const auto rest = hn::Add(hn::MaskedLoad(tail, d32, sums + whole),
-                              hn::PromoteTo(d32, hn::Load(d16, from + whole)));
-    hn::BlendedStore(rest, tail, d32, sums + whole);
+      hn::StoreU(hn::Add(hn::LoadU(d32, sums + ex), take(ex)), d32, sums + ex);
+    if (whole < side)
+      hn::BlendedStore(hn::Add(hn::MaskedLoad(tail, d32, sums + whole), take(whole)), tail, d32,
+                       sums + whole);
   }
-  scratch.sums.fill(0);
 }
 
-void addAll(std::span<const MatchedPart> parts, ImageView<const uint8_t> luma,
-            const PaddedLuma& previous, MatchScratch& scratch, std::span<uint32_t> sums) {
+void addAll(std::span<const MatchedPart> parts, ImageView<const uint8_t> luma, const Search& search,
+            MatchScratch& scratch, std::span<uint32_t> sums) {
   constexpr int kMostBytes = 64, kMostShifts = 32;
-  const int reach = previous.reach(), side = 2 * reach + 1;
+  const int reach = search.reach, side = 2 * reach + 1;
   scratch.spread.resize({kMostBytes * 2 * (kPartHeight + 2 * reach + kRowsAtOnce), 1});
   scratch.sums.resize(
       {(side + kMostShifts - 1) / kMostShifts * kMostShifts, side + kRowsAtOnce - 1});
   scratch.sums.fill(0);
   int blocks = 0;
   for (const MatchedPart& part : parts) {
-    const BlockList list = listBlocks(part, luma, previous);
+    const BlockList list = listBlocks(part, luma, search);
     if (blocks + list.count > kMostBlocks) {
       moveSums(reach, scratch, sums.data());
       blocks = 0;
@@ -231,9 +233,9 @@ void addAll(std::span<const MatchedPart> parts, ImageView<const uint8_t> luma,
 
 #else
 
-void addAll(std::span<const MatchedPart> parts, ImageView<const uint8_t> luma,
-            const PaddedLuma& previous, MatchScratch&, std::span<uint32_t> sums) {
-  addPartsPlainly(parts, luma, previous, sums);
+void addAll(std::span<const MatchedPart> parts, ImageView<const uint8_t> luma, const Search& search,
+            MatchScratch&, std::span<uint32_t> sums) {
+  addPartsPlainly(parts, luma, search, sums);
 }
 
 #endif
@@ -248,8 +250,8 @@ HWY_EXPORT(addAll);
 }  // namespace simd
 
 void addParts(std::span<const MatchedPart> parts, ImageView<const uint8_t> luma,
-              const PaddedLuma& previous, MatchScratch& scratch, std::span<uint32_t> sums) {
-  HWY_DYNAMIC_DISPATCH(simd::addAll)(parts, luma, previous, scratch, sums);
+              const Search& search, MatchScratch& scratch, std::span<uint32_t> sums) {
+  HWY_DYNAMIC_DISPATCH(simd::addAll)(parts, luma, search, scratch, sums);
 }
 
 }  // namespace rg
