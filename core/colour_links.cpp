@@ -2,6 +2,7 @@
 #include "core/colour_links.hpp"
 
 #include "core/background.hpp"
+#include "core/simd/link_rows.hpp"
 
 #include <algorithm>
 
@@ -10,40 +11,16 @@ namespace {
 
 constexpr int kBandsOfRows = 8;  // Each has its own histogram.
 
-enum Direction : uint8_t { kUp, kLeft, kRight, kDown, kNowhere };
-
-constexpr uint8_t average(uint8_t a, uint8_t b) {
-  return static_cast<uint8_t>((a + b + 1) >> 1);
-}
-
-constexpr uint8_t distance(uint8_t a, uint8_t b) {
-  return a > b ? static_cast<uint8_t>(a - b) : static_cast<uint8_t>(b - a);
-}
-
 /// Writes the mean of each pixel and its two neighbours, weights 1 2 1; the row's ends repeat.
 void smoothAcross(const uint8_t* from, int width, Span span, uint8_t* to) {
-  const auto at = [&](int x) { return from[std::clamp(x, 0, width - 1)]; };
-  const auto clamped = [&](int x) { to[x] = average(average(at(x - 1), at(x + 1)), from[x]); };
   if (span.first >= span.last) return;
-  clamped(span.first);
-  clamped(span.last - 1);
-  for (int x = span.first + 1; x < span.last - 1; ++x)
-    to[x] = average(average(from[x - 1], from[x + 1]), from[x]);
-}
-
-void smoothDown(const uint8_t* above, const uint8_t* from, const uint8_t* below, Span span,
-                uint8_t* to) {
-  for (int x = span.first; x < span.last; ++x)
-    to[x] = average(average(above[x], below[x]), from[x]);
-}
-
-void firstDistance(const uint8_t* a, const uint8_t* b, int count, uint8_t* to) {
-  for (int i = 0; i < count; ++i) to[i] = std::min(distance(a[i], b[i]), kFarthest);
-}
-
-void largerDistance(const uint8_t* a, const uint8_t* b, int count, uint8_t* to) {
-  for (int i = 0; i < count; ++i)
-    to[i] = std::max(to[i], std::min(distance(a[i], b[i]), kFarthest));
+  const int first = std::max(span.first, 1), last = std::min(span.last, width - 1);
+  if (first < last)
+    simd::smoothRow(from + first - 1, from + first + 1, from + first, last - first, to + first);
+  const int end = width - 1;
+  if (span.first == 0) simd::smoothRow(from, from + std::min(1, end), from, 1, to);
+  if (span.last == width)
+    simd::smoothRow(from + std::max(end - 1, 0), from + end, from + end, 1, to + end);
 }
 
 /// Pairs with a pixel out of scope are none.
@@ -75,7 +52,13 @@ void ColourLinks::build(const Picture& picture, ImageView<const uint8_t> mask,
   const bool guards = band_.count > 0;
   if (guards) {
     hues_.resize(size_);
-    forRows([&](int y) { findHues(y); });
+    forRows([&](int y) {
+      const Span row = span(y);
+      if (row.first < row.last)
+        simd::findHueRow(smooth_[0].row(y) + row.first, smooth_[1].row(y) + row.first,
+                         smooth_[2].row(y) + row.first, row.last - row.first, band_,
+                         hues_.row(y) + row.first);
+    });
   }
   forRows([&](int y) {
     measure(y, mask);
@@ -148,19 +131,15 @@ void ColourLinks::smooth(const Planes& planes, const Executor& executor) {
         smoothAcross(planes[i].row(y), size_.width, hull(y, 1, 1), across_[i].row(y));
     });
     executor.forRows(size_.height, [&](int first, int last) {
-      for (int y = first; y < last; ++y)
-        smoothDown(across_[i].row(std::max(y - 1, 0)), across_[i].row(y),
-                   across_[i].row(std::min(y + 1, size_.height - 1)), span(y), smooth_[i].row(y));
+      for (int y = first; y < last; ++y) {
+        const Span row = span(y);
+        simd::smoothRow(across_[i].row(std::max(y - 1, 0)) + row.first,
+                        across_[i].row(std::min(y + 1, size_.height - 1)) + row.first,
+                        across_[i].row(y) + row.first, row.last - row.first,
+                        smooth_[i].row(y) + row.first);
+      }
     });
   }
-}
-
-void ColourLinks::findHues(int y) {
-  const Span row = span(y);
-  const uint8_t *red = smooth_[0].row(y), *green = smooth_[1].row(y), *blue = smooth_[2].row(y);
-  int16_t* hues = hues_.row(y);
-  for (int x = row.first; x < row.last; ++x)
-    hues[x] = static_cast<int16_t>(hueOf(red[x], green[x], blue[x]));
 }
 
 // Over the span of this row and the one above: the pairs that end outside must be void, too.
@@ -171,13 +150,16 @@ void ColourLinks::measure(int y, ImageView<const uint8_t> mask) {
   uint8_t* up = up_.row(y);
   left[row.first] = left[std::max(row.last, row.first)] = kNoPair;
   if (count <= 0) return;
+  simd::PixelPairs across{channels_, {}, {}}, down{channels_, {}, {}};
   for (int c = 0; c < channels_; ++c) {
-    const auto i = static_cast<size_t>(c);
-    const auto note = c == 0 ? firstDistance : largerDistance;
-    const uint8_t* pixels = smooth_[i].row(y) + row.first;
-    note(pixels, pixels + 1, count - 1, left + row.first + 1);
-    if (y > 0) note(smooth_[i].row(y - 1) + row.first, pixels, count, up + row.first);
+    const Image<uint8_t>& pixels = smooth_[static_cast<size_t>(c)];
+    across.a[c] = pixels.row(y) + row.first;
+    across.b[c] = across.a[c] + 1;
+    down.a[c] = pixels.row(std::max(y - 1, 0)) + row.first;
+    down.b[c] = across.a[c];
   }
+  simd::measureRow(across, count - 1, kFarthest, left + row.first + 1);
+  if (y > 0) simd::measureRow(down, count, kFarthest, up + row.first);
   if (y == 0) std::fill_n(up + row.first, count, kNoPair);
   if (mask.data == nullptr) return;
   const uint8_t* scope = mask.row(y) + row.first;
@@ -186,56 +168,34 @@ void ColourLinks::measure(int y, ImageView<const uint8_t> mask) {
 }
 
 void ColourLinks::guardHues(int y) {
-  const auto parts = [&](int a, int b) {
-    return a != kAchromatic && b != kAchromatic && band_.contains(a) != band_.contains(b) &&
-           hueDistance(a, b) > kHueGuard;
-  };
   const Span row = span(y);
-  const int16_t* hues = hues_.row(y);
-  const int16_t* above = hues_.row(std::max(y - 1, 0));
-  uint8_t* left = left_.row(y);
-  uint8_t* up = up_.row(y);
-  for (int x = row.first; x < row.last; ++x) {
-    if (left[x] < kFarthest && parts(hues[x - 1], hues[x])) left[x] = kFarthest;
-    if (up[x] < kFarthest && parts(above[x], hues[x])) up[x] = kFarthest;
-  }
+  const int count = row.last - row.first;
+  if (count <= 0) return;
+  const simd::HueGuard guard{kHueGuard, kFarthest};
+  const int16_t* hues = hues_.row(y) + row.first;
+  simd::guardRow(hues, hues + 1, count - 1, guard, left_.row(y) + row.first + 1);
+  if (y > 0)
+    simd::guardRow(hues_.row(y - 1) + row.first, hues, count, guard, up_.row(y) + row.first);
 }
 
 void ColourLinks::chooseNearest(int y) {
   const Span row = span(y);
-  const uint8_t *left = left_.row(y), *up = up_.row(y), *down = up_.row(y + 1);
-  uint8_t* nearest = nearest_.row(y);
-  for (int x = row.first; x < row.last; ++x) {
-    const uint8_t u = up[x], l = left[x], r = left[x + 1], d = down[x];
-    const uint8_t least = std::min(std::min(u, l), std::min(r, d));
-    uint8_t choice = kDown;
-    choice = r == least ? uint8_t{kRight} : choice;
-    choice = l == least ? uint8_t{kLeft} : choice;
-    choice = u == least ? uint8_t{kUp} : choice;
-    nearest[x] = least == kNoPair ? uint8_t{kNowhere} : choice;
-  }
+  simd::chooseRow({left_.row(y) + row.first, up_.row(y) + row.first, up_.row(y + 1) + row.first},
+                  row.last - row.first, kNoPair, nearest_.row(y) + row.first);
 }
 
 void ColourLinks::link(int y, ImageView<const uint8_t> mask, const LinkParams& params) {
   const Span row = span(y);
-  const auto similarity = static_cast<uint8_t>(std::clamp(params.similarity, 0, 254));
-  const uint8_t *left = left_.row(y), *up = up_.row(y);
+  const int count = std::max(row.last - row.first, 0);
   uint8_t* links = links_.row(y);
-  const auto bitIf = [](bool isSet, LinkBit bit) { return isSet ? int{bit} : 0; };
-  for (int x = row.first; x < row.last; ++x)
-    links[x] = static_cast<uint8_t>(kInScope | bitIf(left[x] <= similarity, kLinkedLeft) |
-                                    bitIf(up[x] <= similarity, kLinkedUp));
-  if (params.joinsSingles) {
-    const uint8_t* nearest = nearest_.row(y);
-    const uint8_t* above = nearest_.row(std::max(y - 1, 0));
-    for (int x = row.first; x < row.last; ++x) {
-      const bool isUpWanted = nearest[x] == kUp || (up[x] != kNoPair && above[x] == kDown);
-      links[x] = static_cast<uint8_t>(links[x] | bitIf(nearest[x] == kLeft, kLinkedLeft) |
-                                      bitIf(isUpWanted, kLinkedUp));
-    }
-    for (int x = row.first + 1; x < row.last; ++x)
-      links[x] = static_cast<uint8_t>(links[x] | bitIf(nearest[x - 1] == kRight, kLinkedLeft));
-  }
+  std::fill(links, links + row.first, uint8_t{0});
+  std::fill(links + row.first + count, links + size_.width, uint8_t{0});
+  const bool chooses = params.joinsSingles;
+  simd::linkRow({left_.row(y) + row.first, up_.row(y) + row.first,
+                 chooses ? nearest_.row(y) + row.first : nullptr,
+                 chooses ? nearest_.row(std::max(y - 1, 0)) + row.first : nullptr,
+                 static_cast<uint8_t>(std::clamp(params.similarity, 0, int{kFarthest})), kNoPair},
+                count, {kLinkedLeft, kLinkedUp, kInScope}, links + row.first);
   if (mask.data == nullptr) return;
   const uint8_t* scope = mask.row(y);
   for (int x = row.first; x < row.last; ++x)

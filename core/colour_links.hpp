@@ -48,7 +48,7 @@ class ColourLinks {
              const Executor& executor);
 
   [[nodiscard]] Size size() const { return size_; }
-  /// Of row y, the columns outside which no pixel is in scope; links(y) is defined inside.
+  /// Of row y, the columns outside which no pixel is in scope.
   [[nodiscard]] Span span(int y) const { return spans_[static_cast<size_t>(y)]; }
   [[nodiscard]] const uint8_t* links(int y) const { return links_.row(y); }
   /// Distance of pixel x to its left neighbour; 0 … width.
@@ -63,7 +63,6 @@ class ColourLinks {
   void findSpans(ImageView<const uint8_t> mask, const Executor& executor);
   void findBand(const Planes& planes, const Executor& executor);
   void smooth(const Planes& planes, const Executor& executor);
-  void findHues(int y);
   void measure(int y, ImageView<const uint8_t> mask);
   void guardHues(int y);
   void chooseNearest(int y);

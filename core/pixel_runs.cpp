@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/pixel_runs.hpp"
 
+#include "core/simd/link_rows.hpp"
+
 #include <algorithm>
+#include <bit>
 
 namespace rg {
 namespace {
@@ -21,76 +24,107 @@ void unite(std::vector<uint32_t>& parents, uint32_t a, uint32_t b) {
     parents[a] = b;
 }
 
+constexpr int kWordBits = 64;
+
+/// The word that holds the column, from the column's bit on.
+uint64_t bitsFrom(const uint64_t* words, int x) {
+  return words[x / kWordBits] >> (x % kWordBits);
+}
+
+bool isSet(const uint64_t* words, int x) {
+  return (bitsFrom(words, x) & 1) != 0;
+}
+
+/// Whether any of the columns first … last − 1 is set.
+bool isAnySet(const uint64_t* words, int first, int last) {
+  for (int x = first; x < last;) {
+    const int count = std::min(kWordBits - x % kWordBits, last - x);
+    const uint64_t wanted = ~uint64_t{0} >> (kWordBits - count);
+    if ((bitsFrom(words, x) & wanted) != 0) return true;
+    x += count;
+  }
+  return false;
+}
+
 }  // namespace
 
 void PixelRuns::build(const ColourLinks& links, const RunLimits& limits, const Executor& executor) {
   limits_ = limits;
-  const int height = links.size().height;
-  rowStarts_.assign(static_cast<size_t>(height) + 1, 0);
-  executor.forRows(height, [&](int firstRow, int lastRow) {
-    for (int y = firstRow; y < lastRow; ++y) {
-      const Span span = links.span(y);
-      const uint8_t* row = links.links(y);
-      uint32_t starts = 0;
-      for (int x = span.first; x < span.last; ++x) starts += startsRun(row, x);
-      rowStarts_[static_cast<size_t>(y) + 1] = starts;
-    }
+  size_ = links.size();
+  const Size words{(size_.width + kWordBits - 1) / kWordBits, size_.height};
+  for (Image<uint64_t>* bits : {&scope_, &leftLinks_, &upLinks_}) bits->resize(words);
+  tileStarts_.assign(static_cast<size_t>(words.width), 0);
+  for (int x = 0; x < size_.width; x += limits_.tilePx)
+    tileStarts_[static_cast<size_t>(x / kWordBits)] |= uint64_t{1} << (x % kWordBits);
+  rowStarts_.assign(static_cast<size_t>(size_.height) + 1, 0);
+  executor.forRows(size_.height, [&](int firstRow, int lastRow) {
+    for (int y = firstRow; y < lastRow; ++y) packLinks(links, y);
   });
   for (size_t y = 1; y < rowStarts_.size(); ++y) rowStarts_[y] += rowStarts_[y - 1];
 
   runs_.resize(rowStarts_.back());
   parents_.resize(rowStarts_.back());
-  const int tiles = (height + limits_.tilePx - 1) / limits_.tilePx;
+  const int tiles = (size_.height + limits_.tilePx - 1) / limits_.tilePx;
   executor.forEach(tiles, [&](int tile) {
-    const int first = tile * limits_.tilePx, last = std::min(first + limits_.tilePx, height);
-    for (int y = first; y < last; ++y) findRuns(links, y);
-    for (int y = first + 1; y < last; ++y) joinRows(links, y, parents_);
+    const int first = tile * limits_.tilePx, last = std::min(first + limits_.tilePx, size_.height);
+    for (int y = first; y < last; ++y) findRuns(y);
+    for (int y = first + 1; y < last; ++y) joinRows(y, parents_);
     for (uint32_t i = rowStart(first); i < rowStart(last); ++i) parents_[i] = findRoot(parents_, i);
   });
-  joinTiles(links);
+  joinTiles();
   numberComponents();
 }
 
-bool PixelRuns::startsRun(const uint8_t* links, int x) const {
-  return (links[x] & kInScope) != 0 && ((links[x] & kLinkedLeft) == 0 || x % limits_.tilePx == 0);
+/// Also counts the runs of the row: they begin where the scope does or where no link leads on.
+void PixelRuns::packLinks(const ColourLinks& links, int y) {
+  const uint8_t* row = links.links(y);
+  simd::packRow(row, size_.width, kInScope, scope_.row(y));
+  simd::packRow(row, size_.width, kLinkedLeft, leftLinks_.row(y));
+  simd::packRow(row, size_.width, kLinkedUp, upLinks_.row(y));
+  int starts = 0;
+  for (int i = 0; i < scope_.width(); ++i)
+    starts += std::popcount(scope_.row(y)[i] &
+                            (~leftLinks_.row(y)[i] | tileStarts_[static_cast<size_t>(i)]));
+  rowStarts_[static_cast<size_t>(y) + 1] = static_cast<uint32_t>(starts);
 }
 
-void PixelRuns::findRuns(const ColourLinks& links, int y) {
-  const Span span = links.span(y);
-  const uint8_t* row = links.links(y);
+// A run ends before a pixel that is not linked to it. What is out of scope has no links.
+void PixelRuns::findRuns(int y) {
   uint32_t next = rowStart(y);
-  for (int x = span.first; x < span.last;) {
-    if ((row[x] & kInScope) == 0) {
-      ++x;
-      continue;
+  bool isOpen = false;
+  uint64_t lastOfWord = 0;
+  for (int i = 0; i < scope_.width(); ++i) {
+    const uint64_t scope = scope_.row(y)[i];
+    uint64_t ends = (~leftLinks_.row(y)[i] | tileStarts_[static_cast<size_t>(i)]) &
+                    (scope | scope << 1 | lastOfWord);
+    lastOfWord = scope >> (kWordBits - 1);
+    for (; ends != 0; ends &= ends - 1) {
+      const int bit = std::countr_zero(ends);
+      const int x = i * kWordBits + bit;
+      if (isOpen) runs_[next++].last = x;
+      isOpen = (scope >> bit & 1) != 0;
+      if (!isOpen) continue;
+      runs_[next].first = x;
+      parents_[next] = next;
     }
-    const int first = x;
-    const int end = std::min(span.last, (x / limits_.tilePx + 1) * limits_.tilePx);
-    do ++x;
-    while (x < end && (row[x] & kLinkedLeft) != 0);
-    runs_[next] = {first, x};
-    parents_[next] = next;
-    ++next;
   }
+  if (isOpen) runs_[next].last = size_.width;
 }
 
-void PixelRuns::joinRows(const ColourLinks& links, int y, std::vector<uint32_t>& parents) const {
-  const uint8_t* row = links.links(y);
+void PixelRuns::joinRows(int y, std::vector<uint32_t>& parents) const {
+  const uint64_t* links = upLinks_.row(y);
   forOverlaps(*this, y, [&](uint32_t i, uint32_t j, int first, int last) {
-    if (std::any_of(row + first, row + last, [](uint8_t l) { return (l & kLinkedUp) != 0; }))
-      unite(parents, i, j);
+    if (isAnySet(links, first, last)) unite(parents, i, j);
   });
 }
 
-void PixelRuns::joinTiles(const ColourLinks& links) {
+void PixelRuns::joinTiles() {
   whole_ = parents_;
-  const int height = links.size().height;
-  for (int y = limits_.tilePx; y < height; y += limits_.tilePx) joinRows(links, y, whole_);
-  for (int y = 0; y < height; ++y) {
-    const uint8_t* row = links.links(y);
+  for (int y = limits_.tilePx; y < size_.height; y += limits_.tilePx) joinRows(y, whole_);
+  for (int y = 0; y < size_.height; ++y) {
     for (uint32_t j = rowStart(y) + 1; j < rowStart(y + 1); ++j) {
       const int x = runs_[j].first;
-      if (x % limits_.tilePx == 0 && runs_[j - 1].last == x && (row[x] & kLinkedLeft) != 0)
+      if (x % limits_.tilePx == 0 && runs_[j - 1].last == x && isSet(leftLinks_.row(y), x))
         unite(whole_, j - 1, j);
     }
   }

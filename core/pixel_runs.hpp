@@ -39,13 +39,16 @@ class PixelRuns {
   [[nodiscard]] uint32_t component(uint32_t run) const { return components_[run]; }
 
  private:
-  [[nodiscard]] bool startsRun(const uint8_t* links, int x) const;
-  void findRuns(const ColourLinks& links, int y);
-  void joinRows(const ColourLinks& links, int y, std::vector<uint32_t>& parents) const;
-  void joinTiles(const ColourLinks& links);
+  void packLinks(const ColourLinks& links, int y);
+  void findRuns(int y);
+  void joinRows(int y, std::vector<uint32_t>& parents) const;
+  void joinTiles();
   void numberComponents();
 
   RunLimits limits_;
+  Size size_;
+  std::vector<uint64_t> tileStarts_;             ///< Bits of the columns where tiles begin.
+  Image<uint64_t> scope_, leftLinks_, upLinks_;  ///< A bit a pixel.
   std::vector<uint32_t> rowStarts_;
   std::vector<PixelRun> runs_;
   std::vector<uint32_t> parents_;  ///< Forest of the runs, within a tile.
