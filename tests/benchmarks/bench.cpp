@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Times of the five core stages, without GStreamer, on the whole frame as in the paper's table.
+// Times of the five core stages, without GStreamer, on the whole frame as in the paper's figures.
 #include "core/background.hpp"
 #include "core/objects.hpp"
 #include "core/pool.hpp"
@@ -15,7 +15,10 @@
 namespace rg::bench {
 namespace {
 
-constexpr char kBackgroundRow[] = "bgremove";
+constexpr char kLoadRow[] = "load", kBackgroundRow[] = "bgremove";
+const std::vector<std::string> kStages = {"hsvsegment", "srg", "prmmotion", "mrfmerge"};
+// The paper's milliseconds for 640x480 and 160 regions.
+constexpr double kPaperCpuMs = 1460, kPaperGpuMs = 22.81;
 
 template <class T>
 T valueOf(Result<T> result) {
@@ -41,28 +44,41 @@ class Pipeline {
     const Frame frame = raw.view();
     const auto picture = pictures_.take();
     const FrameTime time{frames_++ * 40'000'000, true};
-    timings.measure("load", [&] { picture->load(frame, *context_.cpu); });
+    timings.measure(kLoadRow, [&] { picture->load(frame, *context_.cpu); });
     timings.measure(kBackgroundRow, [&] {
       return valueOf(background_->process(picture, BackgroundParams{}, time));
     });
-    const auto labels = timings.measure("hsvsegment", [&] {
+    const auto labels = timings.measure(kStages[0], [&] {
       return valueOf(segmentation_->process(picture, nullptr, segmentationParams_));
     });
-    const auto graph =
-        timings.measure("srg", [&] { return valueOf(graph_->process(labels, GraphParams{})); });
+    const auto graph = timings.measure(
+        kStages[1], [&] { return valueOf(graph_->process(labels, GraphParams{})); });
     const auto motion = timings.measure(
-        "prmmotion", [&] { return valueOf(motion_->process(graph, motionParams_)); });
+        kStages[2], [&] { return valueOf(motion_->process(graph, motionParams_)); });
     const auto objects = timings.measure(
-        "mrfmerge", [&] { return valueOf(objects_->process(motion, ObjectParams{}, time)); });
-    regions_ = graph->regions.size();
-    groups_ = objects->objects.size();
+        kStages[3], [&] { return valueOf(objects_->process(motion, ObjectParams{}, time)); });
+    note(*motion, *objects);
   }
 
+  /// Forgets what was noted so far.
+  void clear() { notes_ = {}; }
+  struct Notes {
+    size_t fewestRegions = SIZE_MAX, mostRegions = 0, objects = 0;
+    uint64_t matchedBlocks = 0, stillBlocks = 0;
+  };
+  [[nodiscard]] const Notes& notes() const { return notes_; }
+
   [[nodiscard]] int threads() const { return context_.cpu->threads(); }
-  [[nodiscard]] size_t regions() const { return regions_; }
-  [[nodiscard]] size_t objects() const { return groups_; }
 
  private:
+  void note(const Motion& motion, const Objects& objects) {
+    notes_.fewestRegions = std::min(notes_.fewestRegions, motion.regions.size());
+    notes_.mostRegions = std::max(notes_.mostRegions, motion.regions.size());
+    notes_.objects = objects.objects.size();
+    notes_.matchedBlocks += motion.matchedBlocks;
+    notes_.stillBlocks += motion.stillBlocks;
+  }
+
   Context context_;
   Pool<Picture> pictures_;
   std::unique_ptr<BackgroundStage> background_;
@@ -73,25 +89,85 @@ class Pipeline {
   SegmentationParams segmentationParams_;
   MotionParams motionParams_;
   int64_t frames_ = 0;
-  size_t regions_ = 0;
-  size_t groups_ = 0;
+  Notes notes_;
 };
 
-int run(const Options& options) {
+struct Measured {
+  std::string scene;
+  Size size;
+  int threads = 0;
+  Pipeline::Notes notes;
+  Timings timings;
+
+  [[nodiscard]] double total() const { return timings.total({kLoadRow, kBackgroundRow}); }
+};
+
+Measured measure(const Options& options) {
   const auto source = valueOf(openSource(options));
   Pipeline pipeline(options);
-  Timings timings;
+  Measured measured{source->describe(), {}, pipeline.threads(), {}, {}};
   RawFrame frame;
   for (int i = 0; i < kWarmUpFrames + options.frames; ++i) {
     valueOf(source->next(frame));
-    if (i == kWarmUpFrames) timings.clear();
-    pipeline.process(frame, timings);
+    if (i == kWarmUpFrames) measured.timings.clear();
+    if (i == kWarmUpFrames) pipeline.clear();
+    pipeline.process(frame, measured.timings);
   }
-  std::printf("%dx%d, threads %d, frames %d; in the last one %zu regions, %zu objects\n",
-              frame.layout.size.width, frame.layout.size.height, pipeline.threads(), options.frames,
-              pipeline.regions(), pipeline.objects());
-  timings.printRows();
-  std::printf("total_ms=%.3f\npipeline_ms=%.3f\n", timings.total(kBackgroundRow), timings.total());
+  measured.size = frame.layout.size;
+  measured.notes = pipeline.notes();
+  return measured;
+}
+
+int run(const Options& options) {
+  const Measured measured = measure(options);
+  const Pipeline::Notes& notes = measured.notes;
+  std::printf("%dx%d, threads %d, frames %d, %s\n", measured.size.width, measured.size.height,
+              measured.threads, options.frames, measured.scene.c_str());
+  std::printf("%zu to %zu regions in a frame, %zu objects in the last one\n", notes.fewestRegions,
+              notes.mostRegions, notes.objects);
+  std::printf("%.2f %% of the cells took the shortcut for what stands still\n",
+              100.0 * static_cast<double>(notes.stillBlocks) /
+                  static_cast<double>(std::max<uint64_t>(notes.matchedBlocks, 1)));
+  measured.timings.printRows();
+  std::printf("total_ms=%.3f\npipeline_ms=%.3f\n", measured.total(), measured.timings.total());
+  std::printf(
+      "(total: the last four; 640x480 with 160 regions took the paper %.0f ms on a CPU, "
+      "%.2f ms on a GPU)\n",
+      kPaperCpuMs, kPaperGpuMs);
+  return 0;
+}
+
+void printLine(const Measured& measured, const Options& options) {
+  std::printf("%5dx%-5d %7d", options.size.width, options.size.height, options.regions);
+  for (const std::string& stage : kStages) std::printf(" %10.3f", measured.timings.of(stage));
+  std::printf(" %10.3f %8.1f", measured.total(), 1000 / measured.total());
+  if (options.size == Size{640, 480} && options.regions == 160)
+    std::printf("   %.0f on a CPU, %.2f on a GPU", kPaperCpuMs, kPaperGpuMs);
+  std::printf("\n");
+}
+
+/// The paper's sizes, and those of today; then its numbers of regions (Figs. 14 and 20).
+int runTable(Options options) {
+  struct Line {
+    Size size;
+    int regions;
+  };
+  std::vector<Line> lines;
+  for (const Size size : {Size{100, 100}, Size{120, 160}, Size{200, 200}, Size{400, 400},
+                          Size{640, 480}, Size{900, 450}, Size{1024, 768}})
+    lines.push_back({size, 160});
+  lines.push_back({{1920, 1080}, 512});
+  lines.push_back({{3840, 2160}, 1024});
+  for (const Size size : {Size{200, 200}, Size{640, 480}})
+    for (const int regions : {10, 20, 40, 80, 120, 160}) lines.push_back({size, regions});
+  std::printf("%11s %7s", "size", "regions");
+  for (const std::string& stage : kStages) std::printf(" %10s", stage.c_str());
+  std::printf(" %10s %8s   %s\n", "total ms", "fps", "the paper's ms");
+  for (const Line& line : lines) {
+    options.size = line.size;
+    options.regions = line.regions;
+    printLine(measure(options), options);
+  }
   return 0;
 }
 
@@ -108,5 +184,5 @@ int main(int argc, char** argv) {
     std::cout << rg::bench::usage("bench");
     return 0;
   }
-  return rg::bench::run(*options);
+  return options->asksTable ? rg::bench::runTable(*options) : rg::bench::run(*options);
 }

@@ -40,13 +40,20 @@ constexpr NumberOption kNumbers[] = {{"--regions", &Options::regions, 1, 65535},
 bool isKnown(std::string_view name) {
   for (const NumberOption& option : kNumbers)
     if (option.name == name) return true;
-  return name == "--input" || name == "--size";
+  return name == "--input" || name == "--size" || name == "--scene";
+}
+
+bool setScene(SceneKind& scene, std::string_view value) {
+  if (value != "clip" && value != "synthetic") return false;
+  scene = value == "clip" ? SceneKind::Clip : SceneKind::Synthetic;
+  return true;
 }
 
 bool set(Options& options, std::string_view name, std::string_view value) {
   if (name == "--input") options.input = value;
   if (name == "--input") return !value.empty();
   if (name == "--size") return setSize(options.size, value);
+  if (name == "--scene") return setScene(options.scene, value);
   for (const NumberOption& option : kNumbers) {
     if (option.name != name) continue;
     const auto parsed = number(value, option.least, option.most);
@@ -67,22 +74,34 @@ Result<Options> parseOptions(std::span<const char* const> arguments) {
       options.asksHelp = true;
       return options;
     }
+    if (name == "--table") {
+      options.asksTable = true;
+      continue;
+    }
     if (!isKnown(name)) return Error{"unknown option: " + name};
     if (++i == arguments.size()) return Error{name + " needs a value"};
     if (!set(options, name, arguments[i]))
       return Error{name + " can't be " + std::string(arguments[i])};
     hasSize = hasSize || name == "--size";
   }
-  if (hasSize && !options.input.empty()) return Error{"--size is for the synthetic scene"};
+  if (hasSize && !options.input.empty()) return Error{"--size is for scenes"};
+  if (options.asksTable && (hasSize || !options.input.empty()))
+    return Error{"--table has its own sizes"};
   return options;
 }
 
 std::string usage(const std::string& program) {
   return "usage: " + program +
-         " [--input FILE.y4m | --size WxH] [--regions N] [--shift R] [--threads T] [--frames N]\n"
-         "  --input    frames to measure on (default: a synthetic scene)\n"
-         "  --size     of the synthetic scene (default 640x480)\n"
-         "  --regions  in the scene, and at most in the segmentation (default 160)\n"
+         " [--input FILE.y4m | --size WxH | --table] [--scene clip|synthetic] [--regions N]\n"
+         "       [--shift R] [--threads T] [--frames N]\n"
+         "  --input    frames to measure on (default: a scene)\n"
+         "  --size     of the scene (default 640x480)\n"
+         "  --table    all sizes and numbers of regions that the paper has times of\n"
+         "  --scene    clip: real frames with noise, of the clip that the demo uses (looked for "
+         "in\n"
+         "             $REGIONGRAPH_CLIP, the cache folder and the package opencv-doc);\n"
+         "             synthetic: tiles and bodies (default: the clip where there is one)\n"
+         "  --regions  in the synthetic scene, and at most in the segmentation (default 160)\n"
          "  --shift    largest motion searched, in pixels (default 20)\n"
          "  --threads  0 = all cores (default 0)\n"
          "  --frames   measured after a warm-up (default 50)\n";

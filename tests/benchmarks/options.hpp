@@ -13,14 +13,23 @@ namespace rg::bench {
 /// Frames before those that are measured: the background model is learnt by then.
 inline constexpr int kWarmUpFrames = 60;
 
+/// Where frames come from, unless a file is given.
+enum class SceneKind : uint8_t {
+  Any,        ///< Clip where there is one, else Synthetic.
+  Clip,       ///< Real frames with noise.
+  Synthetic,  ///< Tiles and bodies of one colour each.
+};
+
 struct Options {
-  std::string input;      ///< A .y4m file; empty = the synthetic scene.
-  Size size{640, 480};    ///< Of the synthetic scene.
-  int regions = 160;      ///< In the synthetic scene, and the most that hsvsegment may make.
-  int shiftPx = 20;       ///< Searched by prmmotion; things in the scene move by up to half of it.
-  int threads = 0;        ///< 0 = all cores.
-  int frames = 50;        ///< Measured, after a warm-up.
-  bool asksHelp = false;  ///< Print the usage and do nothing.
+  std::string input;  ///< A .y4m file; empty = a scene.
+  SceneKind scene = SceneKind::Any;
+  Size size{640, 480};     ///< Of the scene.
+  int regions = 160;       ///< In the synthetic scene, and the most that hsvsegment may make.
+  int shiftPx = 20;        ///< Searched by prmmotion; things in the scene move by up to half of it.
+  int threads = 0;         ///< 0 = all cores.
+  int frames = 50;         ///< Measured, after a warm-up.
+  bool asksTable = false;  ///< Measure the paper's sizes and numbers of regions.
+  bool asksHelp = false;   ///< Print the usage and do nothing.
 };
 
 /// Errors name the option that is unknown, lacks its value or is out of range.

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <iostream>
 
 namespace rg::bench {
 namespace {
@@ -71,6 +72,7 @@ class Scene final : public FrameSource {
     ++time_;
     return true;
   }
+  std::string describe() const override { return "synthetic scene"; }
 
  private:
   static Body makeBody(int number, Size size, int fastest) {
@@ -137,6 +139,14 @@ std::unique_ptr<FrameSource> makeScene(const Options& options) {
 
 Result<std::unique_ptr<FrameSource>> openSource(const Options& options) {
   if (!options.input.empty()) return openY4m(options.input);
+  if (options.scene == SceneKind::Synthetic) return makeScene(options);
+  const std::string clip = findClip();
+  if (!clip.empty()) return openClip(clip, options.size);
+  constexpr char kMissing[] =
+      "vtest.avi is not there: run examples/demo.sh once, install opencv-doc, or name a video by "
+      "REGIONGRAPH_CLIP";
+  if (options.scene == SceneKind::Clip) return Error{kMissing};
+  std::cerr << kMissing << ".\nMeasuring on the synthetic scene instead.\n";
   return makeScene(options);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Frames to measure on: a scene with known numbers of regions and speeds, or a .y4m file.
+// Frames to measure on: a scene, or a .y4m file.
 #pragma once
 
 #include "core/frame.hpp"
@@ -25,6 +25,8 @@ class FrameSource {
   virtual ~FrameSource() = default;
   /// Overwrites `frame` with the next one. A file starts again after its last frame.
   [[nodiscard]] virtual Result<bool> next(RawFrame& frame) = 0;
+  /// What is measured on, for the reader of the times.
+  [[nodiscard]] virtual std::string describe() const = 0;
 };
 
 /// The synthetic scene: three quarters of the regions are tiles of a still background, the others
@@ -35,7 +37,15 @@ class FrameSource {
 /// YUV4MPEG2 with 4:2:0 or mono planes of 8 bits.
 [[nodiscard]] Result<std::unique_ptr<FrameSource>> openY4m(const std::string& path);
 
-/// One or the other, as the options say.
+/// The clip that the demo uses, or nothing where it is not there.
+[[nodiscard]] std::string findClip();
+
+/// Real frames without scaling: the middle of the clip's frames, or for larger sizes the frames
+/// continued by their mirror images. Every channel of every pixel has Gaussian noise of sigma 3 of
+/// its own, anew in each frame, so that nothing stands still.
+[[nodiscard]] Result<std::unique_ptr<FrameSource>> openClip(const std::string& path, Size size);
+
+/// As the options say. Where there is no clip, says so on stderr.
 [[nodiscard]] Result<std::unique_ptr<FrameSource>> openSource(const Options& options);
 
 }  // namespace rg::bench

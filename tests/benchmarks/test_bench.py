@@ -4,6 +4,7 @@
 
 usage: test_bench.py PROGRAM LAST_LINE...      LAST_LINE: names of the sums that PROGRAM ends with
 """
+import os
 import pathlib
 import re
 import subprocess
@@ -13,10 +14,12 @@ import unittest
 
 PROGRAM, SUMS = sys.argv[1], sys.argv[2:]
 QUICK = ('--frames', '2', '--threads', '1')
+SYNTHETIC = ('--scene', 'synthetic')
 
 
-def bench(*arguments):
-    done = subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=120)
+def bench(*arguments, env=None):
+    done = subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=120,
+                          env=env)
     return done.returncode, done.stdout.splitlines(), done.stderr
 
 
@@ -27,21 +30,33 @@ def y4m(folder, header, frame):
 
 
 class Bench(unittest.TestCase):
+    def sums(self, lines):
+        found = dict(line.split('=') for line in lines if re.fullmatch(r'\w+_ms=\d+\.\d+', line))
+        self.assertEqual(list(found), SUMS)
+        return [float(value) for value in found.values()]
+
     def check_sums(self, lines):
-        for name, line in zip(SUMS, lines[-len(SUMS):]):
-            self.assertRegex(line, rf'^{name}=\d+\.\d+$')
-            self.assertGreater(float(line.split('=')[1]), 0)
+        for value in self.sums(lines):
+            self.assertGreater(value, 0)
 
     def test_times_the_synthetic_scene(self):
-        status, lines, errors = bench('--size', '96x64', '--regions', '20', '--shift', '4', *QUICK)
+        status, lines, errors = bench('--size', '96x64', '--regions', '20', '--shift', '4', *QUICK,
+                                      *SYNTHETIC)
         self.assertEqual((status, errors), (0, ''))
         self.assertTrue(lines[0].startswith('96x64, threads 1, frames 2'), lines[0])
         self.check_sums(lines)
 
     def test_sums_contain_every_row_of_the_table(self):
-        _, lines, _ = bench('--size', '96x64', '--frames', '1', '--threads', '1')
+        _, lines, _ = bench('--size', '96x64', '--frames', '1', '--threads', '1', *SYNTHETIC)
         rows = [float(line.split()[-1]) for line in lines if re.match(r'^\S.*\s\d+\.\d{3}$', line)]
-        self.assertAlmostEqual(sum(rows), float(lines[-1].split('=')[1]), delta=0.01)
+        self.assertAlmostEqual(sum(rows), self.sums(lines)[-1], delta=0.02)
+
+    def test_says_where_it_looked_for_the_clip(self):
+        with tempfile.TemporaryDirectory() as folder:
+            environment = {**os.environ, 'XDG_CACHE_HOME': folder, 'REGIONGRAPH_CLIP': ''}
+            status, _, errors = bench('--scene', 'clip', *QUICK, env=environment)
+        if status != 0:  # Installed as Debian's package it is always found.
+            self.assertIn('REGIONGRAPH_CLIP', errors)
 
     def test_reads_a_file_from_its_start_again(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -64,7 +79,8 @@ class Bench(unittest.TestCase):
     def test_refuses_unknown_options_and_values(self):
         for wrong in (['--speed', '9'], ['--frames'], ['--frames', '0'], ['--frames', '2x'],
                       ['--size', '640'], ['--size', '0x480'], ['--threads', '-1'], ['clip.y4m'],
-                      ['--input', 'a.y4m', '--size', '8x8']):
+                      ['--input', 'a.y4m', '--size', '8x8'], ['--scene', 'desert'],
+                      ['--table', '--size', '8x8']):
             status, _, errors = bench(*wrong)
             self.assertEqual(status, 2, wrong)
             self.assertIn('usage:', errors)

@@ -37,11 +37,18 @@ class Timings {
     for (const Row& row : rows_) std::printf("%-14s %10.3f\n", row.name.c_str(), median(row.ms));
   }
 
-  /// Median over the frames of the sum of all rows but `without`.
-  [[nodiscard]] double total(const std::string& without = "") const {
+  /// Median over the frames of one row; 0 if there is none.
+  [[nodiscard]] double of(const std::string& name) const {
+    for (const Row& row : rows_)
+      if (row.name == name) return median(row.ms);
+    return 0;
+  }
+
+  /// Median over the frames of the sum of all rows but those of `without`.
+  [[nodiscard]] double total(const std::vector<std::string>& without = {}) const {
     std::vector<double> sums;
     for (const Row& row : rows_) {
-      if (row.name == without) continue;
+      if (std::find(without.begin(), without.end(), row.name) != without.end()) continue;
       sums.resize(std::max(sums.size(), row.ms.size()));
       for (size_t i = 0; i < row.ms.size(); ++i) sums[i] += row.ms[i];
     }

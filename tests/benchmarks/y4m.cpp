@@ -60,6 +60,7 @@ class Y4mFile final : public FrameSource {
     if (read(frame.bytes)) return true;
     return Error{"no complete frame in the file"};
   }
+  std::string describe() const override { return "file"; }
 
  private:
   bool read(std::vector<uint8_t>& bytes) {
