@@ -69,27 +69,40 @@ class Learner {
  public:
   Learner(const SmoothPicture& picture, const BitMask& foreground, const ConsensusRate& rate,
           ConsensusBackground& model)
-      : picture_(picture), foreground_(foreground), rate_(rate), model_(model) {}
+      : picture_(picture),
+        foreground_(foreground),
+        rate_(rate),
+        limit_(65536u / static_cast<uint32_t>(rate.interval)),
+        model_(model) {}
 
   void learnWord(int word, int y) {
-    const uint64_t background = foreground_.columnsOf(word) & ~foreground_.row(y)[word];
-    if (background == 0) return;
-    draw(word, y, 0, background);
+    const uint64_t place =
+        uint64_t{rate_.frame} << 32 | static_cast<uint32_t>(y) << 16 | static_cast<uint32_t>(word);
+    draw(word, y, 4 * place, Which::All);
     // Restless pixels see more colours and must learn them faster.
-    draw(word, y, 1, background);
+    draw(word, y, 4 * place + 2, Which::Restless);
   }
 
  private:
-  void draw(int word, int y, uint32_t round, uint64_t background) {
-    const uint32_t limit = 65536u / static_cast<uint32_t>(rate_.interval);
-    const uint32_t hash =
-        mixHash(static_cast<uint32_t>(word), static_cast<uint32_t>(y), 2 * rate_.frame + round);
-    const uint32_t other = std::rotl(hash, 11) * 0x2C1B3C6Du;
-    const bool isOwn = (hash & 0xFFFF) < limit, isOthers = (other & 0xFFFF) < limit;
-    if (!isOwn && !isOthers) return;
-    if (round > 0) background &= restlessColumns(word, y);
-    if (isOwn) remember(background, {word, y}, {}, (hash >> 16) % kSamples);
-    if (isOthers) rememberNeighbour(background, {word, y}, other >> 16);
+  enum class Which { All, Restless };
+
+  void draw(int word, int y, uint64_t seed, Which which) {
+    const uint64_t ownDice = mixHash64(seed), othersDice = mixHash64(seed + 1);
+    const uint64_t own = drawnColumns(ownDice), others = drawnColumns(othersDice);
+    if ((own | others) == 0) return;
+    uint64_t columns = foreground_.columnsOf(word) & ~foreground_.row(y)[word];
+    if (which == Which::Restless) columns &= restlessColumns(word, y);
+    const auto choice = static_cast<uint32_t>((ownDice ^ othersDice) >> 7);
+    if (own != 0) remember(columns & own, {word, y}, {}, choice % kSamples);
+    if (others != 0) rememberNeighbour(columns & others, {word, y}, choice >> 4);
+  }
+
+  /// Four dice of 16 bits, each for 16 columns.
+  [[nodiscard]] uint64_t drawnColumns(uint64_t dice) const {
+    uint64_t columns = 0;
+    for (int i = 0; i < 64; i += 16)
+      columns |= (dice >> i & 0xFFFF) < limit_ ? uint64_t{0xFFFF} << i : 0;
+    return columns;
   }
 
   uint64_t restlessColumns(int word, int y) const {
@@ -119,16 +132,20 @@ class Learner {
       const uint8_t* from = picture_.planes[at(c)].row(word.y + offset.y) + begin + offset.x;
       const int row = sampleRow(model_.channels, word.y, static_cast<int>(sample), c);
       uint8_t* to = model_.samples.row(row) + begin;
-      if (columns == ~uint64_t{0})
-        std::memcpy(to, from, kWordColumns);
-      else
-        forSetBits(columns, 0, [&](int i) { to[i] = from[i]; });
+      for (int i = 0; i < kWordColumns; i += 16) {
+        const uint64_t some = columns >> i & 0xFFFF;
+        if (some == 0xFFFF)
+          std::memcpy(to + i, from + i, 16);
+        else
+          forSetBits(some, i, [&](int x) { to[x] = from[x]; });
+      }
     }
   }
 
   const SmoothPicture& picture_;
   const BitMask& foreground_;
   const ConsensusRate& rate_;
+  uint32_t limit_;
   ConsensusBackground& model_;
 };
 

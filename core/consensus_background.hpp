@@ -67,7 +67,7 @@ struct ConsensusRate {
 struct LearntFrame {
   const BitMask &foreground, &raw, &previousRaw;
 };
-/// Learns pixels that are no foreground. 64 columns of a row remember at once. Noise follows the
+/// Learns pixels that are no foreground. 16 columns of a row remember at once. Noise follows the
 /// distance to the nearest of all samples in every 16th row of a frame, unrest falls in every 8th.
 void learn(const SmoothPicture& picture, const LearntFrame& seen, const ConsensusRate& rate,
            const Executor& executor, ConsensusBackground& model);

@@ -61,7 +61,7 @@ void countAlongRow(const uint64_t* row, int words, int radius, uint64_t* out) {
         addBit(sum, here << i | before >> (kWordColumns - i));
         addBit(sum, here >> i | after << (kWordColumns - i));
       }
-    std::copy(sum.begin(), sum.end(), out);
+    for (size_t i = 0; i < kRowDigits; ++i) out[i] = sum[i];
   }
 }
 

@@ -42,4 +42,11 @@ static_assert(integerSqrt(15) == 3 && integerSqrt(16) == 4 && integerSqrt(~0ull)
   return h ^ (h >> 15);
 }
 
+/// The same of one number, in 64 bits.
+[[nodiscard]] constexpr uint64_t mixHash64(uint64_t value) {
+  value = (value ^ (value >> 30)) * 0xBF58476D1CE4E5B9u;
+  value = (value ^ (value >> 27)) * 0x94D049BB133111EBu;
+  return value ^ (value >> 31);
+}
+
 }  // namespace rg

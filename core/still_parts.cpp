@@ -4,6 +4,7 @@
 #include "core/pixel.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace rg {
 namespace {
@@ -14,21 +15,55 @@ constexpr int64_t kLeastEdge = 12;    ///< Half grey levels by which the model's
 constexpr uint8_t kFreshFrames = 250;
 constexpr int kGhostSamples = 4;  ///< Remembered colours whose mean stands for the model.
 
-uint16_t nextAge(int age, bool isSame) {
-  if (isSame) return static_cast<uint16_t>(std::min(age + 1, 65535));
-  return static_cast<uint16_t>(std::max(0, age - 1 - age / 4));
+/// Pixels of one word: a byte each, 255 for set ones.
+using WordBytes = std::array<uint8_t, kWordColumns>;
+
+WordBytes bytesOf(uint64_t bits) {
+  WordBytes bytes{};
+  forSetBits(bits, 0, [&](int x) { bytes[static_cast<size_t>(x)] = 255; });
+  return bytes;
 }
 
-void followPixel(const SmoothPicture& picture, int radius, Point p, StillPixels& still) {
-  uint16_t& age = still.ages.at(p.x, p.y);
-  int off = 0;
-  for (size_t c = 0; c < static_cast<size_t>(picture.channels); ++c)
-    off = std::max(off, absDiff(picture.planes[c].at(p.x, p.y), still.colours[c].at(p.x, p.y)));
-  age = nextAge(age, age != 0 && off <= radius);
-  if (age != 0) return;
-  age = 1;
-  for (size_t c = 0; c < static_cast<size_t>(picture.channels); ++c)
-    still.colours[c].at(p.x, p.y) = picture.planes[c].at(p.x, p.y);
+/// Of each pixel the largest difference of a channel from the colour that it keeps.
+WordBytes differences(const SmoothPicture& picture, const StillPixels& still, int y, int begin) {
+  WordBytes off{};
+  for (size_t c = 0; c < static_cast<size_t>(picture.channels); ++c) {
+    const uint8_t* now = picture.planes[c].row(y) + begin;
+    const uint8_t* kept = still.colours[c].row(y) + begin;
+    for (size_t x = 0; x < off.size(); ++x)
+      off[x] = std::max(
+          off[x], static_cast<uint8_t>(std::max(now[x], kept[x]) - std::min(now[x], kept[x])));
+  }
+  return off;
+}
+
+void keepColours(const SmoothPicture& picture, const WordBytes& isChosen, int y, int begin,
+                 StillPixels& still) {
+  for (size_t c = 0; c < static_cast<size_t>(picture.channels); ++c) {
+    const uint8_t* now = picture.planes[c].row(y) + begin;
+    uint8_t* kept = still.colours[c].row(y) + begin;
+    for (size_t x = 0; x < isChosen.size(); ++x) kept[x] = isChosen[x] != 0 ? now[x] : kept[x];
+  }
+}
+
+void followWord(const SmoothPicture& picture, uint64_t foreground, const uint8_t* radii, Point at,
+                StillPixels& still) {
+  const int begin = at.x * kWordColumns;
+  const WordBytes isForeground = bytesOf(foreground);
+  const WordBytes off = differences(picture, still, at.y, begin);
+  uint16_t* ages = still.ages.row(at.y) + begin;
+  WordBytes isNew{};
+  const int columns = std::min(kWordColumns, still.ages.width() - begin);  // Rows have no more.
+  for (size_t x = 0; x < static_cast<size_t>(columns); ++x) {
+    const uint16_t age = ages[x];
+    const auto older = static_cast<uint16_t>(std::min(age + 1, 65535));
+    const auto younger = static_cast<uint16_t>(std::max(0, age - 1 - age / 4));
+    const uint16_t next =
+        age != 0 && off[x] <= radii[begin + static_cast<int>(x)] ? older : younger;
+    isNew[x] = next == 0 ? isForeground[x] : 0;
+    ages[x] = isForeground[x] == 0 ? uint16_t{0} : std::max<uint16_t>(next, 1);
+  }
+  keepColours(picture, isNew, at.y, begin, still);
 }
 
 void followRow(const SmoothPicture& picture, const uint64_t* foreground, const uint8_t* radii,
@@ -42,11 +77,8 @@ void followRow(const SmoothPicture& picture, const uint64_t* foreground, const u
   }
   uint64_t* aged = still.aged.row(y);
   for (int word = 0; word < still.aged.wordsPerRow(); ++word) {
-    const int begin = word * kWordColumns;
-    forSetBits(aged[word] & ~foreground[word], begin, [&](int x) { still.ages.at(x, y) = 0; });
-    forSetBits(foreground[word], begin, [&](int x) {
-      followPixel(picture, radii[x], {x, y}, still);
-    });
+    if ((aged[word] | foreground[word]) != 0)
+      followWord(picture, foreground[word], radii, {word, y}, still);
     aged[word] = foreground[word];
   }
 }

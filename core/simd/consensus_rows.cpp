@@ -70,16 +70,21 @@ Halves sumDown(const RowsAround& in, ptrdiff_t x) {
   return add(outer, twice(split(hn::LoadU(kBytes, in.here + x))));
 }
 
+void smoothVector(const RowsAround& in, int x, uint8_t* out) {
+  const Halves half{hn::Set(kWords, 8), hn::Set(kWords, 8)};
+  const Halves sides = add(sumDown(in, x - 1), sumDown(in, x + 1));
+  hn::StoreU(join<4>(add(add(sides, half), twice(sumDown(in, x)))), kBytes, out + x);
+}
+
 void smoothRow(const RowsAround& in, uint8_t* out) {
   const auto lanes = static_cast<int>(hn::Lanes(kBytes));
-  const Halves half{hn::Set(kWords, 8), hn::Set(kWords, 8)};
+  const int last = in.width - 1;
+  if (lanes + 2 > in.width) return plain::smoothRow(in, out);
   int x = 1;
-  for (; x + lanes < in.width; x += lanes) {
-    const Halves sides = add(sumDown(in, x - 1), sumDown(in, x + 1));
-    hn::StoreU(join<4>(add(add(sides, half), twice(sumDown(in, x)))), kBytes, out + x);
-  }
+  for (; x + lanes <= last; x += lanes) smoothVector(in, x, out);
+  if (x < last) smoothVector(in, last - lanes, out);  // Again what the vector before ended with.
   plain::smoothColumns(in, 0, 1, out);
-  plain::smoothColumns(in, x, in.width, out);
+  plain::smoothColumns(in, last, in.width, out);
 }
 
 V distance(const std::array<V, 3>& pixels, const ModelRow& row, int sample, int x) {

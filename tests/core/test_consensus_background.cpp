@@ -128,7 +128,7 @@ TEST(Consensus, TheRateIsThePartOfPixelsLearntInAFrame) {
   int64_t learnt = 0;
   for (int row = 0; row < model.samples.height(); ++row)
     learnt += std::count(model.samples.row(row), model.samples.row(row) + size.width, 120);
-  // A tenth by itself and a tenth from a neighbour, in blocks of 64: 4800 dice rolled twice.
+  // A tenth by itself and a tenth from a neighbour: 19200 dice for 16 columns, rolled twice.
   EXPECT_NEAR(static_cast<double>(learnt), 2 * 640 * 48, 0.15 * 2 * 640 * 48);
 }
 
