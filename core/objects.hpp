@@ -26,6 +26,13 @@ enum class ObjectState : uint8_t {
   Lost,      ///< Not seen for a while; may come back within max-lost-time.
 };
 
+/// Whether an object in this state is told to readers: what is seen, and what is known to stand
+/// behind something. New ones are not yet trusted, lost ones are no longer anywhere.
+[[nodiscard]] constexpr bool isListed(ObjectState state) {
+  return state == ObjectState::Tracked || state == ObjectState::Stopped ||
+         state == ObjectState::Occluded;
+}
+
 inline constexpr int kPositionUnit = 16;  ///< Positions and speeds are in 1/16 px.
 
 struct Object {
@@ -71,6 +78,21 @@ struct Objects {
   std::vector<Event> events;
 
   void dropSources() { motion.reset(); }
+  /// Sources are shared, all else is copied.
+  void copyFrom(const Objects& other) {
+    size = other.size;
+    status = other.status;
+    motion = other.motion;
+    objects = other.objects;
+    slots.copyFrom(other.slots);
+    regionObject = other.regionObject;
+    regionExpected = other.regionExpected;
+    regionGroup = other.regionGroup;
+    arcs = other.arcs;
+    cameraDx = other.cameraDx;
+    cameraDy = other.cameraDy;
+    events = other.events;
+  }
 };
 
 /// Weights of the energy U = U1 + U2 + U3 + prediction (core/mrf_merge.hpp), and the tracker's

@@ -17,6 +17,7 @@
  *   srg ! prmmotion ! mrfmerge ! regionwrite location=objects.jsonl ! fakesink
  * ]|
  */
+#include "core/object_delay.hpp"
 #include "core/objects.hpp"
 #include "gst/elements.hpp"
 #include "gst/support/object_messages.hpp"
@@ -24,11 +25,17 @@
 #include "gst/support/stage_filter.hpp"
 
 #include <array>
+#include <atomic>
+#include <cmath>
+#include <deque>
+#include <utility>
 
 namespace rg {
 namespace {
 
-struct Settings : StageSettings, ObjectParams {};
+struct Settings : StageSettings, ObjectParams {
+  double latencyS = 0.0;
+};
 
 constexpr std::array kProperties{
     property<Settings, &Settings::motionWeight>(
@@ -61,6 +68,13 @@ constexpr std::array kProperties{
                                                  "Smallest object, in percent of the frame's area; "
                                                  "0 = learnt from the sizes seen in the scene",
                                                  0, 100),
+    property<Settings, &Settings::latencyS>(
+        "latency",
+        "Seconds for which frames are held back, so that an object is told from when it was first "
+        "seen instead of from when it was confirmed, and is placed where it must have been while "
+        "it "
+        "was hidden. Reported to the pipeline",
+        0, 10, Mutable::Ready),
     threadsProperty<Settings>(),
 };
 
@@ -69,26 +83,58 @@ class MrfMerge final : public ChainedFilter<Settings, ObjectStage, Motion> {
   explicit MrfMerge(GstBaseTransform* element)
       : ChainedFilter(element, makeObjectStage, "prmmotion"), messages_(element) {}
 
+  bool start() override {
+    latency_ = static_cast<GstClockTime>(std::llround(currentSettings().latencyS * 1e9));
+    return ChainedFilter::start();
+  }
   /// Ends of objects are told at once: after a reset or at the end there may be no next frame.
   void reset(Reset what) override {
+    if (what != Reset::Gap) sendHeld();
     ChainedFilter::reset(what);
     if (what != Reset::Gap) messages_.endAll();
   }
   void endOfStream() override { messages_.endAll(); }
 
+  GstClockTime latency() override { return latency_; }
+  void hold(GstBuffer* buffer) override { held_.push_back(buffer); }
+  GstBuffer* release(bool isEnd) override {
+    auto objects = isEnd ? delay_.popAny() : delay_.pop(static_cast<int64_t>(latency()));
+    if (!objects) return nullptr;
+    GstBuffer* buffer = held_.front();
+    held_.pop_front();
+    publish(buffer, std::move(objects));
+    return buffer;
+  }
+  void dropHeld() override {
+    delay_.clear();
+    for (GstBuffer* buffer : held_) gst_buffer_unref(buffer);
+    held_.clear();
+  }
+
  private:
   void handle(const FilterFrame& frame, std::shared_ptr<const Motion> motion,
               const Settings& settings) override {
-    if (!motion) return attachSkipped<Objects>(frame);
-    auto objects = stage().process(std::move(motion), settings, frame.time);
-    if (objects) {
-      addRoiMetas(frame.buffer, frame.info, **objects);
-      messages_.tell(**objects, GST_BUFFER_PTS(frame.buffer));
-    }
-    attach<Objects>(frame, std::move(objects));
+    info_ = frame.info;
+    auto objects = motion
+                       ? orSkipped(frame, stage().process(std::move(motion), settings, frame.time))
+                       : skipped<Objects>(frame);
+    if (latency() > 0)
+      delay_.push(std::move(objects), frame.time.ns);
+    else
+      publish(frame.buffer, std::move(objects));
+  }
+
+  void publish(GstBuffer* buffer, std::shared_ptr<const Objects> objects) {
+    addRoiMetas(buffer, info_, *objects);
+    messages_.tell(*objects, GST_BUFFER_PTS(buffer));
+    attachResult<Objects>(buffer, std::move(objects));
   }
 
   ObjectMessages messages_;
+  GstVideoInfo info_{};  ///< Of the frames that are held.
+  std::atomic<GstClockTime> latency_ = 0;
+  ObjectDelay delay_;
+  std::deque<GstBuffer*> held_;  ///< Owned; each belongs to a result in `delay_`.
 };
 
 const Settings kDefaults;

@@ -53,11 +53,4 @@ namespace rg::text {
   return "scene-changed";
 }
 
-/// Whether files list an object in this state: what is seen, and what is known to stand behind
-/// something. New ones are not yet trusted, lost ones are no longer anywhere.
-[[nodiscard]] constexpr bool isListed(ObjectState state) {
-  return state == ObjectState::Tracked || state == ObjectState::Stopped ||
-         state == ObjectState::Occluded;
-}
-
 }  // namespace rg::text

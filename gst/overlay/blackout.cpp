@@ -61,8 +61,7 @@ void blackenChroma(GstVideoFrame* frame, int component, const Image<uint8_t>& ke
 
 void markObjects(const Objects& objects, Image<uint8_t>& keep) {
   mark(objects.slots.view(), keep, [&](uint16_t slot) {
-    return slot > 0 && slot <= objects.objects.size() &&
-           text::isListed(objects.objects[slot - 1u].state);
+    return slot > 0 && slot <= objects.objects.size() && isListed(objects.objects[slot - 1u].state);
   });
 }
 

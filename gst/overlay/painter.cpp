@@ -54,7 +54,7 @@ Layout Painter::layOutAll(const Scene& scene, const Views& views) {
   labels_.clear();
   if (!scene.objects || !views.any()) return layout;
   for (const Object& object : scene.objects->objects) {
-    if (!text::isListed(object.state)) continue;
+    if (!isListed(object.state)) continue;
     if (figureCount_ == figures_.size()) figures_.emplace_back();
     Figure& figure = figures_[figureCount_++];
     layOut(object, layout, trails_, labels_, figure);

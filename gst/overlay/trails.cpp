@@ -34,7 +34,7 @@ void Trails::append(Trail& trail, const Sample& sample) {
 void Trails::advance(const Objects& objects, int64_t nowNs, int64_t lengthNs) {
   moveAll({objects.cameraDx, objects.cameraDy});
   for (const Object& object : objects.objects) {
-    if (!text::isListed(object.state)) continue;
+    if (!isListed(object.state)) continue;
     Trail& trail = trails_[object.id];
     trail.seenNs = nowNs;
     const int64_t stepNs = lengthNs / static_cast<int64_t>(kCapacity - 1);

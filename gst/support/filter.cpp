@@ -72,6 +72,7 @@ struct FilterShell {
 
   static gboolean stop(GstBaseTransform* element) {
     return guarded(element, FALSE, [&]() -> gboolean {
+      filterOf(element).dropHeld();
       filterOf(element).reset(Reset::Stream);
       filterOf(element).stop();
       return TRUE;
@@ -128,7 +129,13 @@ struct FilterShell {
 
   static void handleEvent(Filter& filter, GstEvent* event) {
     switch (GST_EVENT_TYPE(event)) {
+      case GST_EVENT_CAPS:
+      case GST_EVENT_SEGMENT:
+      case GST_EVENT_GAP:
+        filter.sendHeld();
+        break;
       case GST_EVENT_STREAM_START: {
+        filter.sendHeld();
         const gchar* id = nullptr;
         gst_event_parse_stream_start(event, &id);
         if (!filter.streamId_.empty() && filter.streamId_ != id) {
@@ -139,10 +146,12 @@ struct FilterShell {
         break;
       }
       case GST_EVENT_FLUSH_STOP:
+        filter.dropHeld();
         filter.reset(Reset::Flush);
         filter.clock_.restart();
         break;
       case GST_EVENT_EOS:
+        filter.sendHeld();
         filter.endOfStream();
         break;
       default:
@@ -166,9 +175,65 @@ struct FilterShell {
     });
   }
 
-  /// Buffers go on as they came, so what upstream may allocate is for downstream to say.
+  static GstFlowReturn generateOutput(GstBaseTransform* element, GstBuffer** out) {
+    const GstFlowReturn flow = GST_BASE_TRANSFORM_CLASS(parentClass)->generate_output(element, out);
+    Filter& filter = filterOf(element);
+    if (flow != GST_FLOW_OK || filter.latency() == 0) return flow;
+    return guarded(element, GST_FLOW_ERROR, [&] {
+      if (*out) filter.hold(std::exchange(*out, nullptr));
+      *out = filter.release(false);
+      return GST_FLOW_OK;
+    });
+  }
+
+  /// Frames that are held back at any time; 0 where their rate is not known.
+  static guint64 heldFrames(Filter& filter) {
+    const GstVideoInfo& info = filter.info_;
+    if (GST_VIDEO_INFO_FPS_N(&info) <= 0 || GST_VIDEO_INFO_FPS_D(&info) <= 0) return 0;
+    return gst_util_uint64_scale_ceil(
+        filter.latency(), static_cast<guint64>(GST_VIDEO_INFO_FPS_N(&info)),
+        static_cast<guint64>(GST_VIDEO_INFO_FPS_D(&info)) * GST_SECOND);
+  }
+
+  /// A frame leaves when the first one comes that is later by the latency.
+  static GstClockTime wholeLatency(Filter& filter) {
+    const guint64 frames = heldFrames(filter);
+    if (frames == 0) return filter.latency();
+    return gst_util_uint64_scale_ceil(
+        frames, static_cast<guint64>(GST_VIDEO_INFO_FPS_D(&filter.info_)) * GST_SECOND,
+        static_cast<guint64>(GST_VIDEO_INFO_FPS_N(&filter.info_)));
+  }
+
+  static gboolean query(GstBaseTransform* element, GstPadDirection direction, GstQuery* query) {
+    const bool isHandled =
+        GST_BASE_TRANSFORM_CLASS(parentClass)->query(element, direction, query) != FALSE;
+    if (isHandled && direction == GST_PAD_SRC && GST_QUERY_TYPE(query) == GST_QUERY_LATENCY) {
+      gboolean isLive = FALSE;
+      GstClockTime least = 0, most = 0;
+      gst_query_parse_latency(query, &isLive, &least, &most);
+      const GstClockTime own = wholeLatency(filterOf(element));
+      gst_query_set_latency(query, isLive, least + own,
+                            GST_CLOCK_TIME_IS_VALID(most) ? most + own : most);
+    }
+    return isHandled;
+  }
+
+  /// Buffers go on as they came, so what upstream may allocate is for downstream to say; those that
+  /// are held here come on top.
   static gboolean proposeAllocation(GstBaseTransform* element, GstQuery*, GstQuery* query) {
-    return gst_pad_peer_query(GST_BASE_TRANSFORM_SRC_PAD(element), query);
+    const gboolean isHandled = gst_pad_peer_query(GST_BASE_TRANSFORM_SRC_PAD(element), query);
+    Filter& filter = filterOf(element);
+    if (!isHandled || filter.latency() == 0) return isHandled;
+    const auto held = static_cast<guint>(heldFrames(filter));
+    for (guint i = 0; i < gst_query_get_n_allocation_pools(query); ++i) {
+      GstBufferPool* pool = nullptr;
+      guint size = 0, least = 0, most = 0;
+      gst_query_parse_nth_allocation_pool(query, i, &pool, &size, &least, &most);
+      gst_query_set_nth_allocation_pool(query, i, pool, size, least + held,
+                                        most == 0 ? 0 : most + held);
+      if (pool) gst_object_unref(pool);
+    }
+    return isHandled;
   }
 
   static void initClass(gpointer klass, gpointer data) {
@@ -201,6 +266,8 @@ struct FilterShell {
     transformClass->sink_event = sinkEvent;
     transformClass->src_event = srcEvent;
     transformClass->transform_ip = transform;
+    transformClass->generate_output = generateOutput;
+    transformClass->query = query;
     transformClass->propose_allocation = proposeAllocation;
   }
 
@@ -225,6 +292,11 @@ GType registerFilter(const FilterDescription& description) {
 
 GstDebugCategory* Filter::category() const {
   return classOf(element_)->category;
+}
+
+void Filter::sendHeld() {
+  while (GstBuffer* buffer = release(true))
+    gst_pad_push(GST_BASE_TRANSFORM_SRC_PAD(element_), buffer);
 }
 
 void Filter::postWarning(const std::string& text) const {

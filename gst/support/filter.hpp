@@ -69,6 +69,19 @@ class Filter {
   virtual void endOfStream() {}
   virtual GstFlowReturn process(const FilterFrame& frame) = 0;
 
+  /// How long frames are held back, nanoseconds; the pipeline is told. Constant while running,
+  /// asked on any thread. Where it is not 0, processed frames go through hold() and leave by
+  /// release().
+  [[nodiscard]] virtual GstClockTime latency() { return 0; }
+  /// Takes a processed frame.
+  virtual void hold(GstBuffer* buffer) { gst_buffer_unref(buffer); }
+  /// The next frame to send, or null while none is due; if isEnd, all that are held are due.
+  [[nodiscard]] virtual GstBuffer* release(bool isEnd) {
+    (void)isEnd;
+    return nullptr;
+  }
+  virtual void dropHeld() {}
+
   [[nodiscard]] std::mutex& settingsMutex() { return settingsMutex_; }
   [[nodiscard]] GstBaseTransform* element() const { return element_; }
   [[nodiscard]] GstDebugCategory* category() const;
@@ -80,6 +93,8 @@ class Filter {
     const std::lock_guard lock(settingsMutex_);
     return settings;
   }
+  /// Sends the frames that are held, before something that ends what they belong to.
+  void sendHeld();
   void postWarning(const std::string& text) const;
   /// Posts that the stream can't be processed, with the remedy.
   GstFlowReturn postError(const std::string& text) const;

@@ -63,16 +63,27 @@ class StageFilter : public Filter {
   /// Attaches what the stage said, or an empty result marked as skipped where it failed.
   template <class Payload>
   void attach(const FilterFrame& frame, Result<std::shared_ptr<const Payload>> result) {
-    if (result) return attachResult<Payload>(frame.buffer, *std::move(result));
-    warnOnce("A frame was skipped: " + result.error().message + ".");
-    attachSkipped<Payload>(frame);
+    attachResult<Payload>(frame.buffer, orSkipped(frame, std::move(result)));
   }
 
   template <class Payload>
   void attachSkipped(const FilterFrame& frame) {
+    attachResult<Payload>(frame.buffer, skipped<Payload>(frame));
+  }
+
+  template <class Payload>
+  [[nodiscard]] std::shared_ptr<const Payload> orSkipped(
+      const FilterFrame& frame, Result<std::shared_ptr<const Payload>> result) {
+    if (result) return *std::move(result);
+    warnOnce("A frame was skipped: " + result.error().message + ".");
+    return skipped<Payload>(frame);
+  }
+
+  template <class Payload>
+  [[nodiscard]] static std::shared_ptr<const Payload> skipped(const FilterFrame& frame) {
     auto result = std::make_shared<Payload>();
     result->size = {GST_VIDEO_INFO_WIDTH(&frame.info), GST_VIDEO_INFO_HEIGHT(&frame.info)};
-    attachResult<Payload>(frame.buffer, std::move(result));
+    return result;
   }
 
   void warnOnce(const std::string& text) {

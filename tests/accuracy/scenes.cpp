@@ -118,7 +118,7 @@ void writePicture(const std::string& path, bench::RawFrame& frame, const Scene& 
   for (const Object& object : objects.objects) {
     const uint32_t hash = mixHash(static_cast<uint32_t>(object.id), 0, 5);
     const auto strong = [&](int shift) { return static_cast<uint8_t>(hash >> shift & 255); };
-    if (text::isListed(object.state))
+    if (isListed(object.state))
       outline(frame, object.box, {strong(0), strong(8), strong(16)});
     else if (object.state == ObjectState::New)
       outline(frame, object.box, {0, 0, 0});

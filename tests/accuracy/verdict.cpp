@@ -64,7 +64,7 @@ void Verdict::add(const Scene& scene, const Objects& objects) {
     uint64_t best = 0;
     double most = kMatch;
     for (const Object& object : objects.objects) {
-      const bool isListed = text::isListed(object.state);
+      const bool isListed = rg::isListed(object.state);
       const double fit = overlap(fact.box, object.box);
       if (isListed && !isToBeFound(fact) &&
           2 * sharedArea(fact.box, object.box) >= static_cast<double>(object.box.area()))
@@ -88,7 +88,7 @@ void Verdict::add(const Scene& scene, const Objects& objects) {
     note(fact.actor, best);
   }
   for (const Object& object : objects.objects) {
-    if (!text::isListed(object.state)) continue;
+    if (!rg::isListed(object.state)) continue;
     if (!fitting.contains(object.id) && excused.contains(object.id)) continue;
     ++reports_;
     if (fitting.contains(object.id)) continue;

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "core/object_delay.hpp"
+
+#include <gtest/gtest.h>
+
+namespace rg {
+namespace {
+
+constexpr int64_t kStepNs = 40'000'000;
+
+Object objectAt(uint64_t id, ObjectState state, int x, uint32_t areaPx = 100) {
+  Object object;
+  object.id = id;
+  object.state = state;
+  object.box = {x, 20, 10, 10};
+  object.centroidX = x * kPositionUnit + 80;
+  object.centroidY = 25 * kPositionUnit;
+  object.areaPx = areaPx;
+  return object;
+}
+
+std::shared_ptr<Objects> frameOf(std::vector<Object> objects, std::vector<Event> events = {}) {
+  auto frame = std::make_shared<Objects>();
+  frame->size = {64, 48};
+  frame->status = Status::Ok;
+  frame->slots.resize(frame->size);
+  frame->slots.fill(0);
+  frame->objects = std::move(objects);
+  frame->events = std::move(events);
+  return frame;
+}
+
+/// Frames 40 ms apart through a delay of `delayFrames`; everything that comes out.
+std::vector<std::shared_ptr<const Objects>> delayed(
+    const std::vector<std::shared_ptr<Objects>>& frames, int delayFrames) {
+  ObjectDelay delay;
+  std::vector<std::shared_ptr<const Objects>> out;
+  for (size_t i = 0; i < frames.size(); ++i) {
+    delay.push(frames[i], static_cast<int64_t>(i) * kStepNs);
+    while (auto frame = delay.pop(delayFrames * kStepNs)) out.push_back(std::move(frame));
+  }
+  EXPECT_EQ(out.size() + static_cast<size_t>(delayFrames), frames.size());
+  while (auto frame = delay.popAny()) out.push_back(std::move(frame));
+  return out;
+}
+
+TEST(ObjectDelay, EveryFrameComesOutOnceAndInOrder) {
+  std::vector<std::shared_ptr<Objects>> frames;
+  for (int i = 0; i < 6; ++i) frames.push_back(frameOf({objectAt(1, ObjectState::Tracked, 3 * i)}));
+  const auto out = delayed(frames, 2);
+  ASSERT_EQ(out.size(), 6u);
+  for (size_t i = 0; i < out.size(); ++i) {
+    EXPECT_EQ(out[i]->objects[0].box, frames[i]->objects[0].box);
+    EXPECT_EQ(out[i]->size, frames[i]->size);
+  }
+}
+
+TEST(ObjectDelay, AnObjectIsToldFromWhenItWasFirstSeen) {
+  const auto out = delayed(
+      {frameOf({objectAt(7, ObjectState::New, 1)}), frameOf({objectAt(7, ObjectState::New, 2)}),
+       frameOf({objectAt(7, ObjectState::Tracked, 3)}, {{EventKind::ObjectNew, {7}}}),
+       frameOf({objectAt(7, ObjectState::Tracked, 4)})},
+      2);
+  int told = 0;
+  for (const auto& frame : out) {
+    EXPECT_EQ(frame->objects[0].state, ObjectState::Tracked);
+    told += static_cast<int>(frame->events.size());
+  }
+  EXPECT_EQ(told, 1);
+  ASSERT_EQ(out[0]->events.size(), 1u);
+  EXPECT_EQ(out[0]->events[0].kind, EventKind::ObjectNew);
+}
+
+TEST(ObjectDelay, WhatIsConfirmedTooLateStaysNewUntilThen) {
+  std::vector<std::shared_ptr<Objects>> frames;
+  for (int i = 0; i < 4; ++i) frames.push_back(frameOf({objectAt(7, ObjectState::New, i)}));
+  frames.push_back(frameOf({objectAt(7, ObjectState::Tracked, 4)}, {{EventKind::ObjectNew, {7}}}));
+  const auto out = delayed(frames, 1);
+  EXPECT_EQ(out[2]->objects[0].state, ObjectState::New);
+  EXPECT_TRUE(out[2]->events.empty());
+  EXPECT_EQ(out[3]->objects[0].state, ObjectState::Tracked);
+  EXPECT_EQ(out[3]->events.size(), 1u);
+  EXPECT_TRUE(out[4]->events.empty());
+}
+
+TEST(ObjectDelay, AFlickerIsNeverTold) {
+  for (const auto& frame : delayed(
+           {frameOf({objectAt(7, ObjectState::New, 1)}), frameOf({}), frameOf({}), frameOf({})}, 2))
+    for (const Object& object : frame->objects) EXPECT_EQ(object.state, ObjectState::New);
+}
+
+TEST(ObjectDelay, AHiddenObjectLiesOnTheWayToWhereItComesBack) {
+  const auto out = delayed({frameOf({objectAt(7, ObjectState::Tracked, 0)}),
+                            frameOf({objectAt(7, ObjectState::Occluded, 40, 0)}),
+                            frameOf({objectAt(7, ObjectState::Lost, 50, 0)}),
+                            frameOf({objectAt(7, ObjectState::Tracked, 30)})},
+                           3);
+  EXPECT_EQ(out[1]->objects[0].state, ObjectState::Occluded);
+  EXPECT_EQ(out[1]->objects[0].box, (Box{10, 20, 10, 10}));
+  EXPECT_EQ(out[1]->objects[0].centroidX, 15 * kPositionUnit);
+  EXPECT_EQ(out[2]->objects[0].state, ObjectState::Occluded);
+  EXPECT_EQ(out[2]->objects[0].box, (Box{20, 20, 10, 10}));
+}
+
+TEST(ObjectDelay, WhatDoesNotComeBackInTimeIsAsItWasPredicted) {
+  const auto out =
+      delayed({frameOf({objectAt(7, ObjectState::Tracked, 0)}),
+               frameOf({objectAt(7, ObjectState::Lost, 40, 0)}), frameOf({}), frameOf({})},
+              1);
+  EXPECT_EQ(out[1]->objects[0].state, ObjectState::Lost);
+  EXPECT_EQ(out[1]->objects[0].box.x, 40);
+}
+
+TEST(ObjectDelay, SourcesStayAsTheyWere) {
+  const auto first = frameOf({objectAt(7, ObjectState::New, 1)});
+  delayed({first, frameOf({objectAt(7, ObjectState::Tracked, 2)}, {{EventKind::ObjectNew, {7}}})},
+          1);
+  EXPECT_EQ(first->objects[0].state, ObjectState::New);
+  EXPECT_TRUE(first->events.empty());
+}
+
+}  // namespace
+}  // namespace rg
