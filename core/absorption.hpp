@@ -20,12 +20,11 @@ struct AbsorbedRegion {
   uint32_t representative = 0;  ///< The initial region that stands for it.
 };
 
-/// Two neighbours: pixel pairs across their border, and the sum of those pairs' distances.
+/// Two neighbours, and the pixel pairs across their border.
 struct AbsorbedBorder {
   uint32_t a = 0;
   uint32_t b = 0;
   uint32_t borderPx = 0;
-  uint32_t contrast = 0;
 };
 
 struct AbsorptionLimits {
@@ -52,18 +51,19 @@ class Absorption {
 
  private:
   struct Mean {
-    int32_t red, green, blue;
+    uint16_t red, green, blue;
   };
 
+  [[nodiscard]] static Mean meanOf(const AbsorbedRegion& region);
   [[nodiscard]] uint64_t mergeRound();
   void chooseAllBelow(uint32_t areaPx);
   void chooseThin();
   void chooseSmallest(uint32_t count);
-  void findMeans();
   void findBest();
   void contract();
-  void compactBorders();
-  [[nodiscard]] uint64_t distance(const AbsorbedBorder& border) const;
+  void numberKept();
+  void joinBorders();
+  [[nodiscard]] uint32_t distance(const AbsorbedBorder& border) const;
 
   std::vector<AbsorbedRegion> regions_;
   std::vector<AbsorbedBorder> borders_, sorted_;
@@ -71,7 +71,8 @@ class Absorption {
   std::vector<uint32_t> perimeters_;
   std::vector<uint8_t> chooses_;   ///< Regions that look for a neighbour in this round.
   std::vector<uint64_t> best_;     ///< Least key of each of those.
-  std::vector<uint32_t> parents_;  ///< Where each region goes in this round; then new numbers.
+  std::vector<uint32_t> parents_;  ///< Where each region goes in this round.
+  std::vector<uint32_t> numbers_;  ///< New number of each region after the round.
   std::vector<uint32_t> starts_, seenAt_;
   std::vector<Mean> means_;
   std::vector<uint64_t> order_;

@@ -64,12 +64,19 @@ void PixelRuns::build(const ColourLinks& links, const RunLimits& limits, const E
 
   runs_.resize(rowStarts_.back());
   parents_.resize(rowStarts_.back());
-  const int tiles = (size_.height + limits_.tilePx - 1) / limits_.tilePx;
-  executor.forEach(tiles, [&](int tile) {
-    const int first = tile * limits_.tilePx, last = std::min(first + limits_.tilePx, size_.height);
-    for (int y = first; y < last; ++y) findRuns(y);
-    for (int y = first + 1; y < last; ++y) joinRows(y, parents_);
-    for (uint32_t i = rowStart(first); i < rowStart(last); ++i) parents_[i] = findRoot(parents_, i);
+  areas_.resize(rowStarts_.back());
+  cuts_.resize(static_cast<size_t>((size_.height + limits_.tilePx - 1) / limits_.tilePx));
+  executor.forEach(bandCount(), [&](int band) {
+    const Span rows = bandRows(band);
+    std::vector<uint32_t>& cuts = cuts_[static_cast<size_t>(band)];
+    cuts.clear();
+    for (int y = rows.first; y < rows.last; ++y) findRuns(y, cuts);
+    for (int y = rows.first + 1; y < rows.last; ++y) joinRows(y, parents_);
+    for (uint32_t i = rowStart(rows.first); i < rowStart(rows.last); ++i) {
+      parents_[i] = findRoot(parents_, i);
+      areas_[i] = 0;
+      areas_[parents_[i]] += static_cast<uint32_t>(runs_[i].last - runs_[i].first);
+    }
   });
   joinTiles();
   numberComponents();
@@ -89,7 +96,7 @@ void PixelRuns::packLinks(const ColourLinks& links, int y) {
 }
 
 // A run ends before a pixel that is not linked to it. What is out of scope has no links.
-void PixelRuns::findRuns(int y) {
+void PixelRuns::findRuns(int y, std::vector<uint32_t>& cuts) {
   uint32_t next = rowStart(y);
   bool isOpen = false;
   uint64_t lastOfWord = 0;
@@ -106,6 +113,7 @@ void PixelRuns::findRuns(int y) {
       if (!isOpen) continue;
       runs_[next].first = x;
       parents_[next] = next;
+      if (isSet(leftLinks_.row(y), x)) cuts.push_back(next);
     }
   }
   if (isOpen) runs_[next].last = size_.width;
@@ -120,28 +128,25 @@ void PixelRuns::joinRows(int y, std::vector<uint32_t>& parents) const {
 
 void PixelRuns::joinTiles() {
   whole_ = parents_;
-  for (int y = limits_.tilePx; y < size_.height; y += limits_.tilePx) joinRows(y, whole_);
-  for (int y = 0; y < size_.height; ++y) {
-    for (uint32_t j = rowStart(y) + 1; j < rowStart(y + 1); ++j) {
-      const int x = runs_[j].first;
-      if (x % limits_.tilePx == 0 && runs_[j - 1].last == x && isSet(leftLinks_.row(y), x))
-        unite(whole_, j - 1, j);
-    }
-  }
-  areas_.assign(whole_.size(), 0);
+  for (int band = 1; band < bandCount(); ++band) joinRows(bandRows(band).first, whole_);
+  for (const std::vector<uint32_t>& cuts : cuts_)
+    for (const uint32_t run : cuts) unite(whole_, run - 1, run);
   for (uint32_t i = 0; i < count(); ++i) {
-    whole_[i] = whole_[whole_[i]];
-    areas_[whole_[i]] += static_cast<uint32_t>(runs_[i].last - runs_[i].first);
+    if (parents_[i] != i) continue;
+    whole_[i] = findRoot(whole_, i);
+    if (whole_[i] != i) areas_[whole_[i]] += areas_[i];
   }
 }
 
-// Parents precede their children, so one sweep in raster order sees each root first.
+// The first run of a whole precedes its parts, and that of a part its runs: one sweep in raster
+// order sees each of them first.
 void PixelRuns::numberComponents() {
   components_.resize(parents_.size());
   componentCount_ = 0;
   for (uint32_t i = 0; i < count(); ++i) {
-    const uint32_t root = areas_[whole_[i]] > limits_.maxAreaPx ? parents_[i] : whole_[i];
-    components_[i] = root == i ? componentCount_++ : components_[root];
+    uint32_t first = parents_[i];
+    if (first == i && areas_[whole_[i]] <= limits_.maxAreaPx) first = whole_[i];
+    components_[i] = first == i ? componentCount_++ : components_[first];
   }
 }
 

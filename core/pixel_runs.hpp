@@ -10,6 +10,7 @@
 #include "core/colour_links.hpp"
 #include "core/executor.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -38,9 +39,17 @@ class PixelRuns {
   [[nodiscard]] const PixelRun& run(uint32_t i) const { return runs_[i]; }
   [[nodiscard]] uint32_t component(uint32_t run) const { return components_[run]; }
 
+  /// Bands of rows that tasks share out: no run of one belongs to the part of another.
+  [[nodiscard]] int bandCount() const { return static_cast<int>(cuts_.size()); }
+  [[nodiscard]] Span bandRows(int band) const {
+    return {band * limits_.tilePx, std::min((band + 1) * limits_.tilePx, size_.height)};
+  }
+  /// What is linked within a band and a tile is a part: its first run, itself for that one.
+  [[nodiscard]] uint32_t part(uint32_t run) const { return parents_[run]; }
+
  private:
   void packLinks(const ColourLinks& links, int y);
-  void findRuns(int y);
+  void findRuns(int y, std::vector<uint32_t>& cuts);
   void joinRows(int y, std::vector<uint32_t>& parents) const;
   void joinTiles();
   void numberComponents();
@@ -51,9 +60,10 @@ class PixelRuns {
   Image<uint64_t> scope_, leftLinks_, upLinks_;  ///< A bit a pixel.
   std::vector<uint32_t> rowStarts_;
   std::vector<PixelRun> runs_;
-  std::vector<uint32_t> parents_;  ///< Forest of the runs, within a tile.
-  std::vector<uint32_t> whole_;    ///< The same, across the tiles.
-  std::vector<uint32_t> areas_;    ///< Of each root of `whole_`.
+  std::vector<uint32_t> parents_;            ///< Of each run the first one of its part.
+  std::vector<uint32_t> whole_;              ///< Forest of the parts, across the tiles.
+  std::vector<std::vector<uint32_t>> cuts_;  ///< By band: runs linked to the one to their left.
+  std::vector<uint32_t> areas_;              ///< Of each root of `whole_`.
   std::vector<uint32_t> components_;
   uint32_t componentCount_ = 0;
 };

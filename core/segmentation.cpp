@@ -8,6 +8,7 @@
 #include "core/pool.hpp"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 namespace rg {
@@ -43,6 +44,31 @@ Result<std::shared_ptr<const Labels>> skipped(Pool<Labels>& pool, Scope scope, S
   return std::shared_ptr<const Labels>(labels);
 }
 
+/// Borders as they come, pairs that come again soon joined.
+class BorderList {
+ public:
+  void clear() {
+    borders_.clear();
+    recent_.fill(0);
+  }
+  void add(uint32_t a, uint32_t b, uint32_t borderPx) {
+    if (a > b) std::swap(a, b);
+    uint32_t& at = recent_[(a * 0x9E3779B1u ^ b * 0x85EBCA77u) >> (32 - kRecentBits)];
+    if (at < borders_.size() && borders_[at].a == a && borders_[at].b == b) {
+      borders_[at].borderPx += borderPx;
+      return;
+    }
+    at = static_cast<uint32_t>(borders_.size());
+    borders_.push_back({a, b, borderPx});
+  }
+  [[nodiscard]] const std::vector<AbsorbedBorder>& borders() const { return borders_; }
+
+ private:
+  static constexpr int kRecentBits = 11;
+  std::vector<AbsorbedBorder> borders_;
+  std::array<uint32_t, 1 << kRecentBits> recent_{};  ///< Where pairs of a hash are.
+};
+
 class CpuSegmentation : public SegmentationStage {
  public:
   explicit CpuSegmentation(Context context) : context_(std::move(context)) {}
@@ -54,13 +80,20 @@ class CpuSegmentation : public SegmentationStage {
 
  private:
   void collectRegions(const Picture& picture);
+  void addRow(const Picture& picture, int y);
   void collectBorders();
-  void collectBorders(int y);
+  void collectBorders(int y, BorderList& borders) const;
   void numberRegions(uint32_t maxRegions, Labels& labels);
 
   Context context_;
   ColourLinks links_;
   PixelRuns runs_;
+  struct Sums {
+    uint32_t red = 0, green = 0, blue = 0;  // Of a tile's pixels: 255 · 2048² < 2^32.
+    uint32_t areaPx = 0;
+  };
+  std::vector<Sums> sums_;  ///< Of each part, at its first run.
+  std::vector<BorderList> bands_;
   Absorption absorption_;
   std::vector<uint32_t> numbers_;
   std::vector<uint64_t> order_;
@@ -99,50 +132,66 @@ Result<std::shared_ptr<const Labels>> CpuSegmentation::process(
   return std::shared_ptr<const Labels>(labels);
 }
 
+// Sums by part first: bands have those of their own.
 void CpuSegmentation::collectRegions(const Picture& picture) {
+  sums_.resize(runs_.count());
+  context_.cpu->forEach(runs_.bandCount(), [&](int band) {
+    const Span rows = runs_.bandRows(band);
+    std::fill(sums_.begin() + runs_.rowStart(rows.first), sums_.begin() + runs_.rowStart(rows.last),
+              Sums{});
+    for (int y = rows.first; y < rows.last; ++y) addRow(picture, y);
+  });
   std::vector<AbsorbedRegion>& regions = absorption_.regions();
   regions.assign(runs_.componentCount(), {});
-  for (int y = 0; y < links_.size().height; ++y) {
-    const uint8_t *red = picture.red().row(y), *green = picture.green().row(y),
-                  *blue = picture.blue().row(y);
-    for (uint32_t i = runs_.rowStart(y); i < runs_.rowStart(y + 1); ++i) {
-      const PixelRun& run = runs_.run(i);
-      uint32_t sums[3] = {};
-      for (int x = run.first; x < run.last; ++x) {
-        sums[0] += red[x];
-        sums[1] += green[x];
-        sums[2] += blue[x];
-      }
-      AbsorbedRegion& region = regions[runs_.component(i)];
-      region.red += sums[0];
-      region.green += sums[1];
-      region.blue += sums[2];
-      region.areaPx += static_cast<uint32_t>(run.last - run.first);
+  for (uint32_t i = 0; i < runs_.count(); ++i) {
+    if (runs_.part(i) != i) continue;
+    AbsorbedRegion& region = regions[runs_.component(i)];
+    region.red += sums_[i].red;
+    region.green += sums_[i].green;
+    region.blue += sums_[i].blue;
+    region.areaPx += sums_[i].areaPx;
+  }
+}
+
+void CpuSegmentation::addRow(const Picture& picture, int y) {
+  const uint8_t *red = picture.red().row(y), *green = picture.green().row(y),
+                *blue = picture.blue().row(y);
+  for (uint32_t i = runs_.rowStart(y); i < runs_.rowStart(y + 1); ++i) {
+    const PixelRun& run = runs_.run(i);
+    Sums sums = sums_[runs_.part(i)];
+    for (int x = run.first; x < run.last; ++x) {
+      sums.red += red[x];
+      sums.green += green[x];
+      sums.blue += blue[x];
     }
+    sums.areaPx += static_cast<uint32_t>(run.last - run.first);
+    sums_[runs_.part(i)] = sums;
   }
 }
 
 void CpuSegmentation::collectBorders() {
-  absorption_.borders().clear();
-  for (int y = 0; y < links_.size().height; ++y) collectBorders(y);
+  bands_.resize(static_cast<size_t>(runs_.bandCount()));
+  context_.cpu->forEach(runs_.bandCount(), [&](int band) {
+    BorderList& borders = bands_[static_cast<size_t>(band)];
+    borders.clear();
+    const Span rows = runs_.bandRows(band);
+    for (int y = rows.first; y < rows.last; ++y) collectBorders(y, borders);
+  });
+  std::vector<AbsorbedBorder>& all = absorption_.borders();
+  all.clear();
+  for (const BorderList& band : bands_)
+    all.insert(all.end(), band.borders().begin(), band.borders().end());
 }
 
-void CpuSegmentation::collectBorders(int y) {
-  std::vector<AbsorbedBorder>& borders = absorption_.borders();
-  const uint8_t* left = links_.leftDistances(y);
+void CpuSegmentation::collectBorders(int y, BorderList& borders) const {
   for (uint32_t j = runs_.rowStart(y) + 1; j < runs_.rowStart(y + 1); ++j) {
     const uint32_t a = runs_.component(j - 1), b = runs_.component(j);
-    const PixelRun& run = runs_.run(j);
-    if (a != b && runs_.run(j - 1).last == run.first) borders.push_back({a, b, 1, left[run.first]});
+    if (a != b && runs_.run(j - 1).last == runs_.run(j).first) borders.add(a, b, 1);
   }
   if (y == 0) return;
-  const uint8_t* up = links_.upDistances(y);
   forOverlaps(runs_, y, [&](uint32_t i, uint32_t j, int first, int last) {
     const uint32_t a = runs_.component(i), b = runs_.component(j);
-    if (a == b) return;
-    uint32_t contrast = 0;
-    for (int x = first; x < last; ++x) contrast += up[x];
-    borders.push_back({a, b, static_cast<uint32_t>(last - first), contrast});
+    if (a != b) borders.add(a, b, static_cast<uint32_t>(last - first));
   });
 }
 

@@ -7,6 +7,7 @@
 
 #include <bit>
 #include <cstring>
+#include <utility>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/simd/block_matching.cpp"
@@ -194,7 +195,9 @@ void moveSums(int reach, MatchScratch& scratch, uint32_t* sums) {
   const hn::Rebind<uint16_t, decltype(d32)> d16;
   const auto lanes = static_cast<int>(hn::Lanes(d32));
   const int side = 2 * reach + 1, whole = side / lanes * lanes;
+#if HWY_TARGET <= HWY_AVX2
   const auto tail = hn::FirstN(d32, static_cast<size_t>(side - whole));
+#endif
   for (int ey = 0; ey < side; ++ey, sums += side) {
     uint16_t* from = scratch.sums.row(ey);
     const auto take = [&](int ex) {
@@ -204,9 +207,13 @@ void moveSums(int reach, MatchScratch& scratch, uint32_t* sums) {
     };
     for (int ex = 0; ex < whole; ex += lanes)
       hn::StoreU(hn::Add(hn::LoadU(d32, sums + ex), take(ex)), d32, sums + ex);
+#if HWY_TARGET <= HWY_AVX2
     if (whole < side)
       hn::BlendedStore(hn::Add(hn::MaskedLoad(tail, d32, sums + whole), take(whole)), tail, d32,
                        sums + whole);
+#else  // Masked access touches whole vectors, and aligned ones only.
+    for (int ex = whole; ex < side; ++ex) sums[ex] += std::exchange(from[ex], uint16_t{0});
+#endif
   }
 }
 

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The SIMD functions of stages 2 and 4 against plain ones, and the stages as a whole: every target
+// of this machine, one to four threads, odd sizes, guard bytes, fills that provoke overflows.
+#include "core/block_matching.hpp"
+#include "core/objects.hpp"
+#include "core/pixel.hpp"
+#include "core/simd/link_rows.hpp"
+#include "tests/core/scenes.hpp"
+#include "tests/core/simd_targets.hpp"
+
+#include <algorithm>
+
+namespace rg {
+namespace {
+
+using namespace scenes;
+
+constexpr uint8_t kGuard = 0xA5;
+
+uint32_t hashOf(int x, int y, uint32_t what) {
+  return mixHash(static_cast<uint32_t>(x), static_cast<uint32_t>(y), what);
+}
+
+/// Fills that make differences largest, smallest, alternating or arbitrary.
+constexpr int kFills = 5;
+int levelAt(int fill, int x, int y) {
+  switch (fill) {
+    case 0:
+      return 255;
+    case 1:
+      return 0;
+    case 2:
+      return (x + y) % 2 * 255;
+    case 3:
+      return x % 3 == 0 ? 254 : 1;
+    default:
+      return static_cast<int>(hashOf(x, y, 9) & 255);
+  }
+}
+
+Image<uint8_t> filled(Size size, int fill) {
+  Image<uint8_t> image(size);
+  for (int y = 0; y < size.height; ++y)
+    for (int x = 0; x < size.width; ++x) image.at(x, y) = static_cast<uint8_t>(levelAt(fill, x, y));
+  return image;
+}
+
+/// Parts in all corners of the picture and with all kinds of gaps.
+std::vector<MatchedPart> somePartsOf(Size size) {
+  std::vector<MatchedPart> parts;
+  for (int y = 0; y < size.height; y += kPartHeight)
+    for (int x = 0; x + kBlockWidth <= size.width; x += kPartWidth) {
+      const uint32_t hash = hashOf(x, y, 4);
+      uint64_t blocks = hash % 3 == 0   ? ~uint64_t{0}
+                        : hash % 3 == 1 ? uint64_t{1} << hash % 64
+                                        : uint64_t{hash} << 32 | hashOf(x, y, 5);
+      if (const int rows = size.height - y; rows < kPartHeight)
+        blocks &= (uint64_t{1} << (2 * rows)) - 1;
+      if (x + kPartWidth > size.width) blocks &= 0x5555555555555555;
+      if (blocks != 0)
+        parts.push_back({blocks, static_cast<uint16_t>(x / kPartWidth),
+                         static_cast<uint16_t>(y / kPartHeight), 1});
+    }
+  return parts;
+}
+
+TEST(SimdBlocks, MatchingIsThePlainOne) {
+  struct Case {
+    Size size;
+    int padding, reach;
+  };
+  for (const Case& c : {Case{{4, 1}, 3, 3}, Case{{21, 65}, 20, 20}, Case{{47, 33}, 8, 7},
+                        Case{{257, 5}, 16, 16}, Case{{12, 9}, 65, 65}, Case{{13, 9}, 20, 1}})
+    for (int fill = 0; fill < kFills; ++fill) {
+      const Image<uint8_t> current = filled(c.size, fill);
+      PaddedLuma previous;
+      previous.build(filled(c.size, (fill + 1) % kFills), c.padding, Executor(1));
+      const Search search{previous, c.reach};
+      const auto parts = somePartsOf(c.size);
+      const auto count = static_cast<size_t>(shiftCount(c.reach));
+      std::vector<uint32_t> expected(count + 16, 7);
+      addPartsPlainly(parts, current, search, std::span(expected).first(count));
+      test::forEachTarget([&] {
+        std::vector<uint32_t> sums(count + 16, 7);
+        MatchScratch scratch;
+        addParts(parts, current, search, scratch, std::span(sums).first(count));
+        EXPECT_EQ(sums, expected) << c.size.width << " wide, fill " << fill;
+      });
+    }
+}
+
+/// Bytes of a row with guards behind them.
+struct Row {
+  static constexpr int kGuards = 64;
+  explicit Row(int count, int fill = kFills, int y = 0)
+      : bytes(static_cast<size_t>(count + kGuards), kGuard) {
+    for (int x = 0; x < count; ++x)
+      bytes[static_cast<size_t>(x)] = static_cast<uint8_t>(levelAt(fill, x, y));
+  }
+  uint8_t operator[](int x) const { return bytes[static_cast<size_t>(x)]; }
+  std::vector<uint8_t> bytes;
+};
+
+constexpr int kWidths[] = {1, 2, 15, 16, 17, 63, 64, 65, 130, 257};
+
+/// Runs write(to) on each target; expected(i) says what it writes into each of `count` bytes.
+template <class Write, class Expected>
+void expectWrites(int count, const Write& write, const Expected& expected) {
+  Row right(count);
+  for (int i = 0; i < count; ++i)
+    right.bytes[static_cast<size_t>(i)] = static_cast<uint8_t>(expected(i));
+  test::forEachTarget([&] {
+    Row to(count);
+    write(to.bytes.data());
+    EXPECT_EQ(to.bytes, right.bytes) << count << " columns";
+  });
+}
+
+TEST(SimdLinks, RowsAreSmoothedAndMeasuredByTheirWords) {
+  for (const int count : kWidths)
+    for (int fill = 0; fill < kFills; ++fill) {
+      const Row a(count, fill), b(count, (fill + 2) % kFills, 3), c(count, 4, 7);
+      expectWrites(
+          count,
+          [&](uint8_t* to) {
+            simd::smoothRow(a.bytes.data(), b.bytes.data(), c.bytes.data(), count, to);
+          },
+          [&](int i) { return ((a[i] + b[i] + 1) / 2 + c[i] + 1) / 2; });
+      const uint8_t *p = a.bytes.data(), *q = b.bytes.data(), *r = c.bytes.data();
+      expectWrites(
+          count,
+          [&](uint8_t* to) {
+            simd::measureRow({3, {p, q, r}, {q, r, r}}, count, 254, to);
+          },
+          [&](int i) { return std::min(std::max(absDiff(a[i], b[i]), absDiff(b[i], c[i])), 254); });
+      expectWrites(
+          count,
+          [&](uint8_t* to) {
+            simd::measureRow({1, {p}, {q}}, count, 254, to);
+          },
+          [&](int i) { return std::min(absDiff(a[i], b[i]), 254); });
+    }
+}
+
+TEST(SimdLinks, HuesAreThoseOfTheTable) {
+  const HueBand band{1400, 300};
+  constexpr int kStep = 5, kCount = 256 / kStep + 1;
+  std::vector<uint8_t> red, green, blue;
+  for (int r = 0; r < kCount; ++r)
+    for (int g = 0; g < 256; ++g) {
+      red.push_back(static_cast<uint8_t>(r * kStep));
+      green.push_back(static_cast<uint8_t>(g));
+      blue.push_back(static_cast<uint8_t>(hashOf(r, g, 2)));
+    }
+  const auto count = static_cast<int>(red.size());
+  test::forEachTarget([&] {
+    std::vector<int16_t> hues(red.size());
+    simd::findHueRow(red.data(), green.data(), blue.data(), count, band, hues.data());
+    for (size_t i = 0; i < hues.size(); ++i) {
+      const int hue = hueOf(red[i], green[i], blue[i]);
+      const int mark = hue != kAchromatic && band.contains(hue) ? int{simd::kInBand} : 0;
+      ASSERT_EQ(hues[i], hue == kAchromatic ? hue : hue + mark)
+          << int{red[i]} << ' ' << int{green[i]} << ' ' << int{blue[i]};
+    }
+  });
+}
+
+// The target without vectors is the plain version of these: the same source.
+TEST(SimdLinks, ChoicesAndLinksAreThePlainOnes) {
+  const auto run = [](int count, int fill) {
+    const Row left(count + 1, fill), up(count, (fill + 3) % kFills, 5), down(count, 4, 2);
+    Row nearest(count), links(count);
+    simd::chooseRow({left.bytes.data(), up.bytes.data(), down.bytes.data()}, count, 255,
+                    nearest.bytes.data());
+    simd::linkRow(
+        {left.bytes.data(), up.bytes.data(), nearest.bytes.data(), nearest.bytes.data(), 2, 255},
+        count, {1, 2, 4}, links.bytes.data());
+    std::vector<uint64_t> words(static_cast<size_t>(count / 64 + 2), kGuard);
+    simd::packRow(links.bytes.data(), count, 1, words.data());
+    std::vector<int16_t> hues(static_cast<size_t>(count));
+    for (int i = 0; i < count; ++i)
+      hues[static_cast<size_t>(i)] =
+          static_cast<int16_t>(static_cast<int>(hashOf(i, fill, 1) % 3000) - 1);
+    Row guarded = left;
+    simd::guardRow(hues.data(), hues.data() + 1, count - 1, {48, 254}, guarded.bytes.data());
+    return std::tuple(nearest.bytes, links.bytes, words, guarded.bytes);
+  };
+  for (const int count : kWidths)
+    for (int fill = 0; fill < kFills; ++fill) {
+      const auto plain = [&] {
+        const test::TargetScope scope(HWY_SCALAR);
+        return run(count, fill);
+      }();
+      test::forEachTarget(
+          [&] { EXPECT_EQ(run(count, fill), plain) << count << " columns, fill " << fill; });
+    }
+}
+
+/// All that the four stages say of two frames, as numbers.
+std::vector<int64_t> answersOf(const std::shared_ptr<const Picture>& first,
+                               const std::shared_ptr<const Picture>& second, const Context& context,
+                               const SegmentationParams& params) {
+  const auto segmentation = makeSegmentationStage(context);
+  const auto graphs = makeGraphStage(context);
+  const auto motions = makeMotionStage(context);
+  const auto objects = makeObjectStage(context);
+  std::vector<int64_t> answers;
+  int64_t ns = 0;
+  for (const auto& picture : {first, second}) {
+    const auto labels = *segmentation->process(picture, nullptr, params);
+    const auto graph = *graphs->process(labels, {});
+    const auto motion = *motions->process(graph, {9, true});
+    const auto result = *objects->process(motion, {}, {ns += 40'000'000, true});
+    for (int y = 0; y < labels->size.height; ++y)
+      for (int x = 0; x < labels->size.width; ++x)
+        answers.insert(answers.end(), {labels->ids.at(x, y), result->slots.at(x, y)});
+    for (const Arc& arc : graph->arcs)
+      answers.insert(answers.end(), {arc.a, arc.b, arc.borderPx, int64_t{arc.contrast}});
+    for (const RegionMotion& m : motion->regions)
+      answers.insert(answers.end(), {m.dx, m.dy, static_cast<int64_t>(m.sad), m.reliability});
+    answers.insert(answers.end(), {result->cameraDx, result->cameraDy});
+  }
+  return answers;
+}
+
+TEST(SimdStages, EveryTargetAndNumberOfThreadsGivesTheSameAnswers) {
+  const auto moved = [](Size size, int dx, int dy) {
+    return paint(size, [=](int x, int y) {
+      const uint32_t tile = hashOf((x - dx + 640) / 9, (y - dy + 640) / 11, 3);
+      const auto level = [&](int shift) {
+        return static_cast<uint8_t>((tile >> shift & 127) + (hashOf(x - dx, y - dy, 6) & 15));
+      };
+      return Rgb{level(0), level(7), level(14)};
+    });
+  };
+  for (const Size size : {Size{1, 1}, Size{3, 70}, Size{131, 97}})
+    for (const int minAreaPx : {0, 1}) {
+      const SegmentationParams params{Scope::Frame, 2, minAreaPx, 300};
+      const auto first = moved(size, 0, 0), second = moved(size, 4, -3);
+      const auto expected = [&] {
+        const test::TargetScope scope(HWY_SCALAR);
+        return answersOf(first, second, contextWith(1), params);
+      }();
+      test::forEachTargetAndThreads([&](const Executor& executor) {
+        const Context context{std::make_shared<const Executor>(executor.threads()), nullptr};
+        EXPECT_EQ(answersOf(first, second, context, params), expected)
+            << size.width << 'x' << size.height;
+      });
+    }
+}
+
+}  // namespace
+}  // namespace rg
