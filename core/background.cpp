@@ -33,10 +33,22 @@ class CpuBackgroundStage final : public BackgroundStage {
   Pool<Foreground> pool_;
 };
 
+std::unique_ptr<BackgroundMethodModel> makeModel(BackgroundMethod method) {
+  switch (method) {
+    case BackgroundMethod::Paper:
+      return makePaperBackground();
+    case BackgroundMethod::FrameDifference:
+      return makeFrameDifferenceBackground();
+    case BackgroundMethod::Hybrid:
+      break;
+  }
+  return makeHybridBackground();
+}
+
 /// Another method starts anew: the models have nothing in common.
 BackgroundMethodModel& CpuBackgroundStage::modelOf(BackgroundMethod method) {
   if (!model_ || method_ != method) {
-    model_ = method == BackgroundMethod::Paper ? makePaperBackground() : makeHybridBackground();
+    model_ = makeModel(method);
     method_ = method;
   }
   return *model_;

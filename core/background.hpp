@@ -46,8 +46,21 @@ struct Foreground {
 };
 
 enum class BackgroundMethod : uint8_t {
-  Hybrid,  ///< Multi-modal model, hysteresis, shadow and ghost removal.
-  Paper,   ///< Section 2.2.1 to the letter.
+  Hybrid,           ///< Multi-modal model, hysteresis, shadow and ghost removal.
+  Paper,            ///< Section 2.2.1 to the letter.
+  FrameDifference,  ///< Section 2.1: what changed since the frame before, and what stopped since.
+};
+
+/// Where method frame-difference looks. Both find the same, bit for bit.
+enum class SearchScope : uint8_t {
+  Frame,  ///< Everywhere.
+  Areas,  ///< Where things were, and in the rows whose turn it is.
+};
+
+/// Which histogram method frame-difference takes its threshold from.
+enum class ThresholdSource : uint8_t {
+  Difference,  ///< That of the differences from the frame before.
+  Frame,       ///< That of the frame itself, as section 2.1 says.
 };
 
 struct BackgroundParams {
@@ -57,6 +70,11 @@ struct BackgroundParams {
   int threshold = 0;  ///< Least difference of a channel, in grey levels; 0 = found by the method.
   bool findsShadows = true;   ///< Mark cast shadows instead of counting them as foreground.
   double absorbTimeS = 60.0;  ///< After so many seconds a thing that stopped becomes background.
+  // Of method frame-difference:
+  SearchScope search = SearchScope::Areas;
+  int searchInterval =
+      16;  ///< Every row is searched for new things once in so many frames. 1 … 64.
+  ThresholdSource thresholdFrom = ThresholdSource::Difference;
 };
 
 class BackgroundStage {

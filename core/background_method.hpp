@@ -27,5 +27,6 @@ class BackgroundMethodModel {
 
 [[nodiscard]] std::unique_ptr<BackgroundMethodModel> makePaperBackground();
 [[nodiscard]] std::unique_ptr<BackgroundMethodModel> makeHybridBackground();
+[[nodiscard]] std::unique_ptr<BackgroundMethodModel> makeFrameDifferenceBackground();
 
 }  // namespace rg

@@ -62,4 +62,10 @@ int differenceThreshold(const Histogram& histogram, int least) {
   return std::min(255, std::max({corner, noise, least}));
 }
 
+int contrastThreshold(const Histogram& histogram, int least) {
+  constexpr int kTenth = 26;  // Of 256.
+  const int range = quantile(histogram, 256 - kTenth) - quantile(histogram, kTenth);
+  return std::min(255, std::max(range / 8, least));
+}
+
 }  // namespace rg

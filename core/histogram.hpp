@@ -23,4 +23,9 @@ using Histogram = std::array<uint32_t, 256>;
 /// but never under three times the median noise, nor under `least`. 0 … 255.
 [[nodiscard]] int differenceThreshold(const Histogram& histogram, int least);
 
+/// Threshold for differences between pictures that have this histogram of grey levels: an eighth of
+/// the range of the middle 80 % of its pixels, so that it follows light and contrast, but never
+/// under `least`. 0 … 255.
+[[nodiscard]] int contrastThreshold(const Histogram& histogram, int least);
+
 }  // namespace rg

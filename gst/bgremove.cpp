@@ -27,8 +27,33 @@ GType methodType() {
        "hybrid"},
       {static_cast<int>(BackgroundMethod::Paper),
        "One Gaussian per pixel as in section 2.2.1 of the paper", "paper"},
+      {static_cast<int>(BackgroundMethod::FrameDifference),
+       "What changed since the frame before, and things that stopped, as in section 2.1 of the "
+       "paper: the fastest",
+       "frame-difference"},
       {0, nullptr, nullptr}};
   static const GType type = registerEnum("GstRegionBackgroundMethod", values);
+  return type;
+}
+
+GType searchType() {
+  static const GEnumValue values[] = {
+      {static_cast<int>(SearchScope::Frame), "The whole frame", "frame"},
+      {static_cast<int>(SearchScope::Areas),
+       "The areas round the things of the frame before, and the rows whose turn it is", "areas"},
+      {0, nullptr, nullptr}};
+  static const GType type = registerEnum("GstRegionSearch", values);
+  return type;
+}
+
+GType thresholdSourceType() {
+  static const GEnumValue values[] = {
+      {static_cast<int>(ThresholdSource::Difference),
+       "The histogram of the difference of two frames: follows the noise", "difference"},
+      {static_cast<int>(ThresholdSource::Frame),
+       "The histogram of the frame itself: an eighth of its contrast", "frame"},
+      {0, nullptr, nullptr}};
+  static const GType type = registerEnum("GstRegionThresholdSource", values);
   return type;
 }
 
@@ -41,7 +66,8 @@ constexpr std::array kProperties{
         "training-frames",
         "Frames from which the first model is learnt. With method=paper nothing is foreground "
         "until "
-        "then; method=hybrid finds things from the start and only learns faster",
+        "then; method=hybrid finds things from the start and only learns faster; "
+        "method=frame-difference needs none",
         1, 65535),
     property<Settings, &Settings::learningTimeS>(
         "learning-time", "Seconds in which the model follows a slow change of the background", 0.1,
@@ -58,6 +84,20 @@ constexpr std::array kProperties{
         "absorb-time",
         "Seconds after which a thing that stopped moving becomes part of the background", 0.1,
         86400),
+    enumProperty<Settings, &Settings::search>(
+        "search",
+        "Where method=frame-difference looks. Both find the same things; areas looks at less of "
+        "the frame",
+        searchType),
+    property<Settings, &Settings::searchInterval>(
+        "search-interval",
+        "Frames in which method=frame-difference has searched every row for new things: in each "
+        "frame it scans one row in so many, in turn. A thing of so many rows is found at once",
+        1, 64),
+    enumProperty<Settings, &Settings::thresholdFrom>(
+        "threshold-from",
+        "What method=frame-difference takes its threshold from, where threshold is 0",
+        thresholdSourceType),
     threadsProperty<Settings>(),
     badBuffersProperty<Settings>(),
 };

@@ -76,5 +76,13 @@ TEST(LightSwitch, FindsAGain) {
   EXPECT_TRUE(std::is_sorted(map.begin(), map.end()));
 }
 
+TEST(Histogram, ContrastThresholdIsAnEighthOfTheMiddleRange) {
+  Histogram histogram{};
+  for (size_t level = 20; level < 220; ++level) histogram[level] = 5;
+  EXPECT_EQ(contrastThreshold(histogram, 12), 19);  // (199 - 40) / 8
+  EXPECT_EQ(contrastThreshold(histogram, 30), 30);
+  EXPECT_EQ(contrastThreshold(Histogram{}, 12), 12);
+}
+
 }  // namespace
 }  // namespace rg
