@@ -177,25 +177,28 @@ void CpuObjectStage::paint(const Graph& graph, Objects& objects) {
   sums_.assign(tracks, {});
   objects.slots.resize(graph.size);
   const Picture* picture = labels.picture.get();
+  const int step = evidence_.stepPx;
   for (int y = 0; y < graph.size.height; ++y) {
     const uint16_t* ids = labels.ids.row(y);
     uint16_t* slots = objects.slots.row(y);
-    const uint16_t* owners = owner.data() + evidence_.at(0, y / evidence_.stepPx);
-    const uint16_t* groups = evidence_.group.data() + evidence_.at(0, y / evidence_.stepPx);
-    for (int x = 0; x < graph.size.width; ++x) {
-      slots[x] = 0;
-      if (ids[x] == kNoRegion || isBackground_[objects.regionGroup[ids[x] - 1u]]) continue;
-      const int cell = x / evidence_.stepPx;
-      if (groups[cell] == 0 || owners[cell] == 0) continue;
-      slots[x] = owners[cell];
-      Sums& sum = sums_[owners[cell] - 1u];
-      if (sum.count++ == 0) sum.first = {x, y};
-      sum.x += static_cast<uint64_t>(x);
-      sum.y += static_cast<uint64_t>(y);
-      if (!picture) continue;
-      sum.red += picture->red().at(x, y);
-      sum.green += picture->green().at(x, y);
-      sum.blue += picture->blue().at(x, y);
+    std::fill_n(slots, graph.size.width, uint16_t{0});
+    const size_t first = evidence_.at(0, y / step);
+    for (int cell = 0; cell < evidence_.grid.width; ++cell) {
+      const uint16_t slot = owner[first + static_cast<size_t>(cell)];
+      if (slot == 0 || evidence_.group[first + static_cast<size_t>(cell)] == 0) continue;
+      Sums& sum = sums_[slot - 1u];
+      const int end = std::min((cell + 1) * step, graph.size.width);
+      for (int x = cell * step; x < end; ++x) {
+        if (ids[x] == kNoRegion || isBackground_[objects.regionGroup[ids[x] - 1u]]) continue;
+        slots[x] = slot;
+        if (sum.count++ == 0) sum.first = {x, y};
+        sum.x += static_cast<uint64_t>(x);
+        sum.y += static_cast<uint64_t>(y);
+        if (!picture) continue;
+        sum.red += picture->red().at(x, y);
+        sum.green += picture->green().at(x, y);
+        sum.blue += picture->blue().at(x, y);
+      }
     }
   }
 }

@@ -8,20 +8,20 @@ namespace rg {
 namespace {
 
 /// Afterwards those of track t are cells[firstCell[t]] … cells[firstCell[t + 1] − 1].
-void listCells(std::span<const uint16_t> owner, size_t tracks, RegionOwnerScratch& s) {
+void listCells(const Evidence& grid, std::span<const uint16_t> owner, size_t tracks,
+               RegionOwnerScratch& s) {
   s.firstCell.assign(tracks + 2, 0);
-  for (const uint16_t track : owner) ++s.firstCell[track + 1u];
+  for (const uint16_t track : owner)
+    if (track != 0) ++s.firstCell[track + 1u];
   std::partial_sum(s.firstCell.begin(), s.firstCell.end(), s.firstCell.begin());
-  s.cells.resize(owner.size());
-  for (size_t cell = 0; cell < owner.size(); ++cell)
-    s.cells[s.firstCell[owner[cell]]++] = static_cast<uint32_t>(cell);
+  s.cells.resize(s.firstCell.back());
+  for (int y = 0; y < grid.grid.height; ++y)
+    for (int x = 0; x < grid.grid.width; ++x)
+      if (const uint16_t track = owner[grid.at(x, y)]; track != 0)
+        s.cells[s.firstCell[track]++] = grid.middleOf(x, y);
 }
 
-uint16_t labelAt(const Labels& labels, const Evidence& grid, uint32_t cell, Point shift) {
-  const auto width = static_cast<uint32_t>(grid.grid.width);
-  const Point middle =
-      grid.middleOf(static_cast<int>(cell % width), static_cast<int>(cell / width));
-  const Point p{middle.x + shift.x, middle.y + shift.y};
+uint16_t labelAt(const Labels& labels, Point p) {
   return boundsOf(labels.ids.size()).contains(p) ? labels.ids.at(p.x, p.y) : kNoRegion;
 }
 
@@ -30,14 +30,16 @@ uint16_t labelAt(const Labels& labels, const Evidence& grid, uint32_t cell, Poin
 void findRegionOwners(const Labels& labels, const Evidence& grid, std::span<const uint16_t> owner,
                       std::span<const Point> shifts, RegionOwnerScratch& s,
                       std::vector<uint32_t>& ownerOf) {
-  listCells(owner, shifts.size(), s);
+  listCells(grid, owner, shifts.size(), s);
   s.votes.assign(ownerOf.size(), 0);
   s.mostVotes.assign(ownerOf.size(), 0);
   std::fill(ownerOf.begin(), ownerOf.end(), 0u);
   for (size_t t = 0; t < shifts.size(); ++t) {
     const auto forRegions = [&](auto&& visit) {
       for (uint32_t i = s.firstCell[t]; i < s.firstCell[t + 1]; ++i)
-        if (const uint16_t label = labelAt(labels, grid, s.cells[i], shifts[t])) visit(label - 1u);
+        if (const uint16_t label =
+                labelAt(labels, {s.cells[i].x + shifts[t].x, s.cells[i].y + shifts[t].y}))
+          visit(label - 1u);
     };
     forRegions([&](uint32_t region) { ++s.votes[region]; });
     forRegions([&](uint32_t region) {

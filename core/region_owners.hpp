@@ -16,7 +16,8 @@ namespace rg {
 
 /// Working memory that keeps its capacity from frame to frame.
 struct RegionOwnerScratch {
-  std::vector<uint32_t> firstCell, cells;  ///< The cells of each track, one track after another.
+  std::vector<uint32_t> firstCell;
+  std::vector<Point> cells;  ///< Middles of each track's cells, one track after another.
   std::vector<uint32_t> votes, mostVotes;  ///< Of each region.
 };
 

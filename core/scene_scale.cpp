@@ -125,7 +125,10 @@ void SceneScale::refit() {
     for (int i = 0; i < band.count(); ++i) {
       const Sample& sample = band.samples[static_cast<size_t>(i)];
       const int64_t expected = valueAt(height_, sample.foot);
-      alike += 4 * std::abs(sample.height - expected) <= expected;
+      const int64_t width = valueAt(width_, sample.foot);
+      const bool isAsWide =
+          sample.width == 0 || (2 * int64_t{sample.width} >= width && sample.width <= 2 * width);
+      alike += isAsWide && 4 * std::abs(sample.height - expected) <= expected;
     }
   isUniform_ = 3 * alike >= 2 * samples;
 }

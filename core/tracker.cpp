@@ -54,6 +54,7 @@ void Tracker::reset(bool isNewScene) {
   for (const Track& track : tracks_)
     if (track.isConfirmed) ended_.push_back(track.id);
   tracks_.clear();
+  encounters_.clear();
   if (isNewScene) scale_.reset({});
 }
 
@@ -122,11 +123,13 @@ void Tracker::update(const Evidence& evidence, std::span<const Group> groups, in
   giveGroups(evidence, groups);
   findNewcomers(evidence, params);
   sight(evidence);
+  meet();
   for (size_t i = 0; i < tracks_.size(); ++i) correct(i, stepNs);
   rejoin();
   for (size_t i = 0; i < sightings_.size(); ++i) learnSize(i, stepNs, evidence);
   learnScale(evidence);
   joinDoubles(stepNs);
+  judgeIdentities();
   findCompany(stepNs);
   tellCompany();
   settle(stepNs, params);
@@ -242,7 +245,7 @@ void Tracker::correct(size_t index, int64_t stepNs) {
   track.speedY = toInt(track.speedY + offFoot * gains.speed * kSecondUs / 16 / sinceUs);
   track.unseenNs = 0;
   ++track.hits;
-  if (s.isWhole || track.look.frames < 4) learn(track.look, s.look);
+  learnLook(index);
 }
 
 }  // namespace rg

@@ -30,6 +30,7 @@ struct Track {
   int32_t speedX = 0, speedY = 0;  ///< Over the ground, in 1/16 px per second.
   Extent size;
   Look look;
+  Look recent;  ///< Since it came out of a blob of several, while it is in doubt.
   Colour colour;
   std::vector<uint64_t> parents;
   int64_t unseenNs = 0;  ///< Since it was last seen.
@@ -47,6 +48,7 @@ struct Track {
   uint64_t nextCompany = 0;
   int64_t companyNs = 0;  ///< Since nextCompany holds.
   int64_t apartNs = 0;    ///< For how long it was seen in a blob of its own.
+  int64_t usualNs = 0;    ///< For how long it was seen whole.
   int64_t otherNs = 0;    ///< Since its own blob is of another size than it should be.
   int64_t partedNs = 0;   ///< Since it consists of several blobs.
   int64_t doubleNs = 0;   ///< Since it looks like a part of another track.
@@ -54,6 +56,7 @@ struct Track {
   bool hasMoved = false;
   bool isFromBorder = false;  ///< First seen where things come into the picture, or moving.
   bool isConfirmed = false;
+  bool isInDoubt = false;  ///< It may have taken another's place.
 
   [[nodiscard]] Box box() const;  ///< In pixels.
 };
@@ -84,6 +87,12 @@ struct Newcomer {
   bool isAtBorder = false;
   LookCounts look;
   Look appearance;
+};
+
+/// Two tracks that were in one blob and have not been judged since.
+struct Encounter {
+  uint64_t first = 0, second = 0;  ///< Ids, the smaller one first.
+  bool isTogether = false;         ///< In this frame.
 };
 
 /// Who has more than half of what is counted (Boyer and Moore), found without a table of all pairs.
@@ -140,7 +149,13 @@ class Tracker {
   void dropSmall(const Evidence& evidence, const TrackerParams& params);
   void rejoin();
   [[nodiscard]] int64_t rejoinCost(const Track& track, const Newcomer& newcomer) const;
+  [[nodiscard]] int likeness(const Track& track, const Newcomer& newcomer) const;
   static void comeBack(Track& track, const Newcomer& newcomer);
+  void meet();
+  [[nodiscard]] Track* find(uint64_t id);
+  void learnLook(size_t index);
+  void judgeIdentities();
+  void exchange(Track& a, Track& b);
   void correct(size_t index, int64_t stepNs);
   void learnSize(size_t index, int64_t stepNs, const Evidence& evidence);
   [[nodiscard]] uint64_t parentOf(const Newcomer& newcomer) const;
@@ -183,6 +198,7 @@ class Tracker {
   std::vector<uint16_t> distance_;   ///< Of each cell from those that owned it first.
   std::vector<uint16_t> soleTrack_;  ///< Of each blob (from 1): 1 + the only track in it, or 0.
   std::vector<int> trackOfNewcomer_;
+  std::vector<Encounter> encounters_;  ///< Sorted by ids.
   std::vector<uint32_t> touching_;
   std::vector<uint16_t> trackIndex_;
   std::vector<uint64_t> companyBefore_;

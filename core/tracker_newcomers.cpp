@@ -208,9 +208,24 @@ int64_t Tracker::rejoinCost(const Track& track, const Newcomer& newcomer) const 
   const int64_t height = int64_t{newcomer.box.height} * kUnit;
   if (!newcomer.isAtBorder && (2 * height < track.size.height || height > 2 * track.size.height))
     return kForbidden;
-  const int alike = similarity(track.look, newcomer.appearance);
+  const int alike = likeness(track, newcomer);
   if (track.isConfirmed && 5 * alike < 2 * kFullMatch) return kForbidden;
   return 1000 * int64_t{far} / gate + 1000 - 1000 * int64_t{alike} / kFullMatch;
+}
+
+/// How much a newcomer looks like a track. What comes out of a blob that a missing track went into
+/// may also be the other one of the two; who is who is judged later.
+int Tracker::likeness(const Track& track, const Newcomer& newcomer) const {
+  int most = similarity(track.look, newcomer.appearance);
+  const uint64_t parent = parentOf(newcomer);
+  for (const Encounter& encounter : encounters_) {
+    const bool isPair = (encounter.first == track.id && encounter.second == parent) ||
+                        (encounter.second == track.id && encounter.first == parent);
+    if (!isPair) continue;
+    for (const Track& other : tracks_)
+      if (other.id == parent) most = std::max(most, similarity(other.look, newcomer.appearance));
+  }
+  return most;
 }
 
 void Tracker::comeBack(Track& track, const Newcomer& newcomer) {

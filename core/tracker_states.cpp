@@ -34,7 +34,8 @@ void Tracker::learnSize(size_t index, int64_t stepNs, const Evidence& e) {
   track.partedNs = s.isParted ? track.partedNs + stepNs : 0;
   const bool isWrong = track.isSeen && s.isSole && !s.isWhole && !scale_.isUniform();
   track.otherNs = isWrong ? track.otherNs + stepNs : 0;
-  if (track.otherNs >= kOtherSizeNs) track.sizeSamples = 0;
+  if (s.isWhole && track.isSeen) track.usualNs += stepNs;
+  if (track.otherNs > std::max(kOtherSizeNs, track.usualNs)) track.sizeSamples = 0;
   if (!s.isWhole || !track.isSeen) return;
   const Box frame = boundsOf(e.frame);
   const bool isCut = s.box.x <= frame.x || s.box.y <= frame.y || s.box.right() >= frame.right() ||

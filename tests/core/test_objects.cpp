@@ -269,6 +269,36 @@ TEST(Objects, CrossingBodiesKeepTheirNumbers) {
   EXPECT_NE(ids[0], ids[1]);
 }
 
+/// Two that hold as much red as blue, but not in the same places, stand behind each other for a
+/// while. Then they go on, or back where they came from.
+std::map<int, std::set<uint64_t>> meet(bool isTurning) {
+  Scene scene;
+  std::map<int, std::set<uint64_t>> ids;
+  for (int i = 0; i < 90; ++i) {
+    const int way = i < 36 ? 3 * i : i < 46 ? 108 : 108 + (isTurning ? -3 : 3) * (i - 45);
+    const Box first{30 + way, 80, 24, 60}, second{248 - way, 84, 24, 60};
+    const auto objects = scene.show({{{first.x, first.y, 24, 30}, kRed},
+                                     {{first.x, first.y + 30, 24, 30}, kBlue},
+                                     {{second.x, second.y, 24, 30}, kBlue},
+                                     {{second.x, second.y + 30, 24, 30}, kRed}});
+    if (i < 15 || (i > 28 && i < 75)) continue;
+    for (const Object* object : toldOf(*objects)) {
+      if (overlap(object->box, first) > 0.5) ids[0].insert(object->id);
+      if (overlap(object->box, second) > 0.5) ids[1].insert(object->id);
+    }
+  }
+  return ids;
+}
+
+TEST(Objects, WhoMetIsKnownByTheLooksOfItsParts) {
+  for (const bool isTurning : {false, true}) {
+    auto ids = meet(isTurning);
+    EXPECT_EQ(ids[0].size(), 1u) << isTurning;
+    EXPECT_EQ(ids[1].size(), 1u) << isTurning;
+    EXPECT_NE(ids[0], ids[1]) << isTurning;
+  }
+}
+
 TEST(Objects, MeetingAndPartingAreToldOnce) {
   Scene scene;
   std::vector<Event> merges, splits;
