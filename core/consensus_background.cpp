@@ -11,8 +11,9 @@ namespace rg {
 namespace {
 
 constexpr uint32_t kNoisePeriod = 16, kFirstNoisePeriod = 4;  ///< Frames from turn to turn.
-constexpr uint8_t kCalmPeriod = 8;                            ///< Also what unrest loses a turn.
-constexpr int kFlip = 16;                                     ///< What it gains by a flip.
+constexpr uint32_t kLearnPeriod = 8;
+constexpr uint8_t kCalmPeriod = 8;  ///< Also what unrest loses a turn.
+constexpr int kFlip = 16;           ///< What it gains by a flip.
 
 template <class Index>
 size_t at(Index i) {
@@ -64,7 +65,8 @@ uint64_t shifted(const uint64_t* row, int word, int words, int shift) {
   return row[word];
 }
 
-/// One frame's learning of single words of rows.
+/// One frame's learning. Memory is what it costs: so all columns of a row take the same sample and
+/// the same neighbour, and only every few rows have their turn.
 class Learner {
  public:
   Learner(const SmoothPicture& picture, const BitMask& foreground, const ConsensusRate& rate,
@@ -72,29 +74,36 @@ class Learner {
       : picture_(picture),
         foreground_(foreground),
         rate_(rate),
-        limit_(65536u / static_cast<uint32_t>(rate.interval)),
+        period_(std::min(kLearnPeriod, static_cast<uint32_t>(rate.interval))),
+        limit_(65536u * period_ / static_cast<uint32_t>(rate.interval)),
         model_(model) {}
 
-  void learnWord(int word, int y) {
-    const uint64_t place =
-        uint64_t{rate_.frame} << 32 | static_cast<uint32_t>(y) << 16 | static_cast<uint32_t>(word);
-    draw(word, y, 4 * place, Which::All);
+  void learnRow(int y) {
+    if ((static_cast<uint32_t>(y) + rate_.frame) % period_ != 0) return;
+    draw(y, 0, Which::All);
     // Restless pixels see more colours and must learn them faster.
-    draw(word, y, 4 * place + 2, Which::Restless);
+    draw(y, 2, Which::Restless);
   }
 
  private:
   enum class Which { All, Restless };
 
-  void draw(int word, int y, uint64_t seed, Which which) {
-    const uint64_t ownDice = mixHash64(seed), othersDice = mixHash64(seed + 1);
-    const uint64_t own = drawnColumns(ownDice), others = drawnColumns(othersDice);
-    if ((own | others) == 0) return;
-    uint64_t columns = foreground_.columnsOf(word) & ~foreground_.row(y)[word];
-    if (which == Which::Restless) columns &= restlessColumns(word, y);
-    const auto choice = static_cast<uint32_t>((ownDice ^ othersDice) >> 7);
-    if (own != 0) remember(columns & own, {word, y}, {}, choice % kSamples);
-    if (others != 0) rememberNeighbour(columns & others, {word, y}, choice >> 4);
+  /// Once for the pixels' own colours, and once for those of a neighbour.
+  void draw(int y, uint32_t round, Which which) {
+    const uint64_t seed = uint64_t{rate_.frame} << 32 | static_cast<uint32_t>(y) << 2 | round;
+    learn(y, {}, mixHash64(seed), which);
+    const uint64_t dice = mixHash64(seed + 1);
+    const Point offset = kNeighbours[dice >> 8 & 7];
+    if (y + offset.y >= 0 && y + offset.y < picture_.size().height) learn(y, offset, dice, which);
+  }
+
+  void learn(int y, Point offset, uint64_t dice, Which which) {
+    for (int word = 0; word < foreground_.wordsPerRow(); ++word) {
+      uint64_t columns = drawnColumns(mixHash64(dice + static_cast<uint32_t>(word)));
+      if (columns == 0) continue;
+      if (which == Which::Restless) columns &= restlessColumns(word, y);
+      remember(columns & teachers(word, y, offset), {word, y}, offset, dice % kSamples);
+    }
   }
 
   /// Four dice of 16 bits, each for 16 columns.
@@ -112,21 +121,18 @@ class Learner {
     return columns;
   }
 
-  /// The same of the eight neighbours for all columns; foreground and what is outside teach
-  /// nothing.
-  void rememberNeighbour(uint64_t columns, Point at, uint32_t choice) {
-    const Size size = picture_.size();
-    const Point offset = kNeighbours[choice % 8];
-    const int y = at.y + offset.y, begin = at.x * kWordColumns;
-    if (y < 0 || y >= size.height) return;
-    columns &= ~shifted(foreground_.row(y), at.x, foreground_.wordsPerRow(), offset.x);
+  /// Where pixel and neighbour are background; what is outside teaches nothing.
+  uint64_t teachers(int word, int y, Point offset) const {
+    const int width = picture_.size().width, begin = word * kWordColumns;
+    uint64_t columns = foreground_.columnsOf(word) & ~foreground_.row(y)[word];
+    columns &= ~shifted(foreground_.row(y + offset.y), word, foreground_.wordsPerRow(), offset.x);
     if (offset.x < 0 && begin == 0) columns &= ~uint64_t{1};
-    if (offset.x > 0 && begin + kWordColumns >= size.width)
-      columns &= ~(uint64_t{1} << (size.width - 1 - begin));
-    remember(columns, at, offset, (choice >> 4) % kSamples);
+    if (offset.x > 0 && begin + kWordColumns >= width)
+      columns &= ~(uint64_t{1} << (width - 1 - begin));
+    return columns;
   }
 
-  void remember(uint64_t columns, Point word, Point offset, uint32_t sample) {
+  void remember(uint64_t columns, Point word, Point offset, uint64_t sample) {
     const int begin = word.x * kWordColumns;
     for (int c = 0; c < model_.channels; ++c) {
       const uint8_t* from = picture_.planes[at(c)].row(word.y + offset.y) + begin + offset.x;
@@ -145,7 +151,8 @@ class Learner {
   const SmoothPicture& picture_;
   const BitMask& foreground_;
   const ConsensusRate& rate_;
-  uint32_t limit_;
+  uint32_t period_;
+  uint32_t limit_;  ///< Of 65536: chance in a turn.
   ConsensusBackground& model_;
 };
 
@@ -187,16 +194,38 @@ void paintColumns(const ConsensusBackground& model, int y, int channel, Columns 
     out[x] = static_cast<uint8_t>((rows[0][x] + rows[1][x] + rows[2][x] + rows[3][x] + 2) >> 2);
 }
 
+void resize(const Picture& picture, SmoothPicture& out) {
+  out.channels = picture.isGrey() ? 1 : 3;
+  for (int c = 0; c < out.channels; ++c) out.planes[at(c)].resize(picture.size());
+}
+
+void resize(Size size, Verdicts& out) {
+  out.raw.resize(size);
+  out.strong.resize(size);
+  out.radii.resize(size);
+}
+
+void smoothRow(const Picture& picture, int y, SmoothPicture& out) {
+  const std::array planes{picture.green(), picture.red(), picture.blue()};
+  for (int c = 0; c < out.channels; ++c)
+    simd::smoothRow(rowsAround(planes[at(c)], y), out.planes[at(c)].row(y));
+}
+
+void judgeRow(const SmoothPicture& picture, const ConsensusBackground& model,
+              const Tolerance& tolerance, int y, Verdicts& out) {
+  const RadiusRow radius{model.noise.row(y), model.unrest.row(y),
+                         static_cast<uint8_t>(tolerance.least),
+                         static_cast<uint8_t>(tolerance.brightness)};
+  simd::judgeRow(modelRow(picture, model, y), radius,
+                 {out.radii.row(y), out.raw.row(y), out.strong.row(y)});
+}
+
 }  // namespace
 
 void smooth(const Picture& picture, const Executor& executor, SmoothPicture& out) {
-  const std::array planes{picture.green(), picture.red(), picture.blue()};
-  out.channels = picture.isGrey() ? 1 : 3;
-  for (int c = 0; c < out.channels; ++c) out.planes[at(c)].resize(picture.size());
+  resize(picture, out);
   executor.forRows(picture.size().height, [&](int first, int last) {
-    for (int y = first; y < last; ++y)
-      for (int c = 0; c < out.channels; ++c)
-        simd::smoothRow(rowsAround(planes[at(c)], y), out.planes[at(c)].row(y));
+    for (int y = first; y < last; ++y) smoothRow(picture, y, out);
   });
 }
 
@@ -225,17 +254,21 @@ void fillFrom(const SmoothPicture& picture, const Executor& executor, ConsensusB
 
 void judge(const SmoothPicture& picture, const ConsensusBackground& model,
            const Tolerance& tolerance, const Executor& executor, Verdicts& out) {
-  const Size size = picture.size();
-  out.raw.resize(size);
-  out.strong.resize(size);
-  out.radii.resize(size);
-  executor.forRows(size.height, [&](int first, int last) {
+  resize(picture.size(), out);
+  executor.forRows(picture.size().height, [&](int first, int last) {
+    for (int y = first; y < last; ++y) judgeRow(picture, model, tolerance, y, out);
+  });
+}
+
+void smoothAndJudge(const Picture& picture, const ConsensusBackground& model,
+                    const Tolerance& tolerance, const Executor& executor,
+                    const JudgedPicture& out) {
+  resize(picture, out.picture);
+  resize(picture.size(), out.verdicts);
+  executor.forRows(picture.size().height, [&](int first, int last) {
     for (int y = first; y < last; ++y) {
-      const RadiusRow radius{model.noise.row(y), model.unrest.row(y),
-                             static_cast<uint8_t>(tolerance.least),
-                             static_cast<uint8_t>(tolerance.brightness)};
-      simd::judgeRow(modelRow(picture, model, y), radius,
-                     {out.radii.row(y), out.raw.row(y), out.strong.row(y)});
+      smoothRow(picture, y, out.picture);
+      judgeRow(out.picture, model, tolerance, y, out.verdicts);
     }
   });
 }
@@ -252,7 +285,7 @@ void learn(const SmoothPicture& picture, const LearntFrame& seen, const Consensu
         simd::followNoiseRow(row, {model.noise.row(y), seen.foreground.row(y)});
       if (!rate.isFirst) raiseUnrest(seen, y, model);
       if (turn % kCalmPeriod == 0) calmUnrest(seen.foreground, y, model);
-      for (int word = 0; word < seen.foreground.wordsPerRow(); ++word) learner.learnWord(word, y);
+      learner.learnRow(y);
     }
   });
 }

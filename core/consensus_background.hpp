@@ -57,6 +57,14 @@ struct Verdicts {
 void judge(const SmoothPicture& picture, const ConsensusBackground& model,
            const Tolerance& tolerance, const Executor& executor, Verdicts& out);
 
+/// Both at once: the rows are judged while they are in the cache.
+struct JudgedPicture {
+  SmoothPicture& picture;
+  Verdicts& verdicts;
+};
+void smoothAndJudge(const Picture& picture, const ConsensusBackground& model,
+                    const Tolerance& tolerance, const Executor& executor, const JudgedPicture& out);
+
 /// How a frame is learnt.
 struct ConsensusRate {
   uint32_t frame = 0;  ///< Seeds the hash.
@@ -67,8 +75,9 @@ struct ConsensusRate {
 struct LearntFrame {
   const BitMask &foreground, &raw, &previousRaw;
 };
-/// Learns pixels that are no foreground. 16 columns of a row remember at once. Noise follows the
-/// distance to the nearest of all samples in every 16th row of a frame, unrest falls in every 8th.
+/// Learns pixels that are no foreground. A row remembers in every 8th frame, 16 columns at once, so
+/// that a pixel does as often as the interval says. Noise follows the distance to the nearest of
+/// all samples in every 16th frame of a row, unrest falls in every 8th.
 void learn(const SmoothPicture& picture, const LearntFrame& seen, const ConsensusRate& rate,
            const Executor& executor, ConsensusBackground& model);
 

@@ -33,7 +33,6 @@ class HybridBackground final : public BackgroundMethodModel {
     return frame_ < static_cast<uint32_t>(job.params.trainingFrames);
   }
   void start(const BackgroundJob& job, Foreground& out);
-  void judge(const BackgroundJob& job);
   SceneEvent followLight(const BackgroundJob& job);
   void clean(const BackgroundJob& job);
   void findShadow(const BackgroundJob& job);
@@ -77,10 +76,9 @@ void HybridBackground::start(const BackgroundJob& job, Foreground& out) {
   out.mask.fill(kBackgroundPixel);
 }
 
-void HybridBackground::judge(const BackgroundJob& job) {
-  const Tolerance tolerance = job.params.threshold > 0 ? Tolerance{job.params.threshold, 0}
-                                                       : Tolerance{kUsualThreshold, kBrightness};
-  rg::judge(smooth_, model_, tolerance, job.executor, verdicts_);
+Tolerance toleranceOf(const BackgroundParams& params) {
+  return params.threshold > 0 ? Tolerance{params.threshold, 0}
+                              : Tolerance{kUsualThreshold, kBrightness};
 }
 
 /// Most of the picture is foreground: is it the known scene in another light, or another scene?
@@ -93,7 +91,7 @@ SceneEvent HybridBackground::followLight(const BackgroundJob& job) {
   if (uint64_t{countApart(shown_, smooth_, maps, verdicts_.radii)} * 2 < before) {
     relight(maps, job.executor, model_);
     clear(still_);
-    judge(job);
+    judge(smooth_, model_, toleranceOf(job.params), job.executor, verdicts_);
     return SceneEvent::LightSwitched;
   }
   return before * 256 < pixels * kOtherSceneShare ? SceneEvent::None : SceneEvent::Changed;
@@ -157,10 +155,12 @@ void HybridBackground::publish(const BackgroundJob& job, ImageView<uint8_t> out)
 
 void HybridBackground::segment(const BackgroundJob& job, Foreground& out) {
   out.mask.resize(job.picture->size());
-  smooth(*job.picture, job.executor, smooth_);
-  if (model_.channels == 0) return start(job, out);
+  if (model_.channels == 0) {
+    smooth(*job.picture, job.executor, smooth_);
+    return start(job, out);
+  }
   ++frame_;
-  judge(job);
+  smoothAndJudge(*job.picture, model_, toleranceOf(job.params), job.executor, {smooth_, verdicts_});
   out.scene.event = followLight(job);
   if (out.scene.event == SceneEvent::Changed) return start(job, out);
   clean(job);

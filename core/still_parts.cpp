@@ -19,8 +19,9 @@ constexpr int kGhostSamples = 4;  ///< Remembered colours whose mean stands for 
 using WordBytes = std::array<uint8_t, kWordColumns>;
 
 WordBytes bytesOf(uint64_t bits) {
-  WordBytes bytes{};
-  forSetBits(bits, 0, [&](int x) { bytes[static_cast<size_t>(x)] = 255; });
+  WordBytes bytes;
+  for (size_t x = 0; x < bytes.size(); ++x)
+    bytes[x] = static_cast<uint8_t>(-static_cast<int>(bits >> x & 1));
   return bytes;
 }
 
@@ -51,18 +52,19 @@ void followWord(const SmoothPicture& picture, uint64_t foreground, const uint8_t
   const int begin = at.x * kWordColumns;
   const WordBytes isForeground = bytesOf(foreground);
   const WordBytes off = differences(picture, still, at.y, begin);
-  uint16_t* ages = still.ages.row(at.y) + begin;
-  WordBytes isNew{};
-  const int columns = std::min(kWordColumns, still.ages.width() - begin);  // Rows have no more.
-  for (size_t x = 0; x < static_cast<size_t>(columns); ++x) {
-    const uint16_t age = ages[x];
-    const auto older = static_cast<uint16_t>(std::min(age + 1, 65535));
-    const auto younger = static_cast<uint16_t>(std::max(0, age - 1 - age / 4));
-    const uint16_t next =
-        age != 0 && off[x] <= radii[begin + static_cast<int>(x)] ? older : younger;
-    isNew[x] = next == 0 ? isForeground[x] : 0;
-    ages[x] = isForeground[x] == 0 ? uint16_t{0} : std::max<uint16_t>(next, 1);
+  const auto columns = static_cast<size_t>(std::min(kWordColumns, still.ages.width() - begin));
+  std::array<uint16_t, kWordColumns> ages{};  // A row of ages may end within the word.
+  std::copy_n(still.ages.row(at.y) + begin, columns, ages.begin());
+  WordBytes isNew;
+  for (size_t x = 0; x < ages.size(); ++x) {
+    const uint16_t age = ages[x], isSame = off[x] <= radii[begin + static_cast<int>(x)];
+    const auto older = static_cast<uint16_t>(age + (age < 65535));
+    const auto younger = static_cast<uint16_t>(age - std::min<int>(age, 1 + age / 4));
+    const uint16_t next = (age != 0) & isSame ? older : younger;
+    isNew[x] = static_cast<uint8_t>(next == 0 ? isForeground[x] : 0);
+    ages[x] = static_cast<uint16_t>(isForeground[x] == 0 ? 0 : std::max<int>(next, 1));
   }
+  std::copy_n(ages.begin(), columns, still.ages.row(at.y) + begin);
   keepColours(picture, isNew, at.y, begin, still);
 }
 

@@ -9,6 +9,7 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/simd/consensus_rows.cpp"
+#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -128,9 +129,19 @@ V secondDistance(const ModelRow& row, V radius, int x) {
   return second;
 }
 
+/// The first samples that will be read: rows are too short for the machine to see where it goes.
+/// Columns beyond the row's end are those of the next row.
+void prefetch(const ModelRow& row, int x) {
+  const int end = (row.width + 63) / 64 * 64;
+  const ptrdiff_t nextRow = row.sampleCount * row.channels * row.sampleStride;
+  const uint8_t* from = row.samples + (x < end ? x : nextRow + (x - end) % end);
+  for (int i = 0; i < 3 * row.channels; ++i) hwy::Prefetch(from + i * row.sampleStride);
+}
+
 void judgeRow(const ModelRow& row, const RadiusRow& radius, const VerdictRow& out) {
   const size_t lanes = hn::Lanes(kBytes);
   for (int begin = 0; begin < row.width; begin += 64) {
+    prefetch(row, begin + 128);
     uint8_t raw[16], strong[16];  // StoreMaskBits may write eight bytes.
     for (size_t i = 0; i < 64; i += lanes) {
       const int x = begin + static_cast<int>(i);

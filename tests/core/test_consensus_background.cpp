@@ -138,7 +138,7 @@ TEST(Consensus, RestlessPixelsLearnTwiceAsFast) {
   BitMask quiet(size);
   quiet.clear();
   std::array<int64_t, 2> learnt{};
-  for (const int unrest : {127, 128}) {
+  for (const int unrest : {100, 200}) {
     auto model = started(flat(size, 50));
     model.unrest.fill(static_cast<uint8_t>(unrest));
     learn(picture, {quiet, quiet, quiet}, {8, 10, false}, Executor(1), model);
