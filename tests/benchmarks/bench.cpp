@@ -37,6 +37,7 @@ class Pipeline {
     motion_ = makeMotionStage(context_);
     objects_ = makeObjectStage(context_);
     segmentationParams_.maxRegions = options.regions;
+    segmentationParams_.minAreaPx = options.minAreaPx;
     motionParams_.maxShiftPx = options.shiftPx;
   }
 
@@ -102,15 +103,15 @@ struct Measured {
   [[nodiscard]] double total() const { return timings.total({kLoadRow, kBackgroundRow}); }
 };
 
-Measured measure(const Options& options) {
+Measured measure(const Options& options, Clock clock = Clock::Wall, int warmUp = kWarmUpFrames) {
   const auto source = valueOf(openSource(options));
   Pipeline pipeline(options);
-  Measured measured{source->describe(), {}, pipeline.threads(), {}, {}};
+  Measured measured{source->describe(), {}, pipeline.threads(), {}, Timings(clock)};
   RawFrame frame;
-  for (int i = 0; i < kWarmUpFrames + options.frames; ++i) {
+  for (int i = 0; i < warmUp + options.frames; ++i) {
     valueOf(source->next(frame));
-    if (i == kWarmUpFrames) measured.timings.clear();
-    if (i == kWarmUpFrames) pipeline.clear();
+    if (i == warmUp) measured.timings.clear();
+    if (i == warmUp) pipeline.clear();
     pipeline.process(frame, measured.timings);
   }
   measured.size = frame.layout.size;
@@ -171,6 +172,26 @@ int runTable(Options options) {
   return 0;
 }
 
+/// What each stage takes for frames made to be expensive, by what it takes for the scene.
+int runWorst(Options options) {
+  constexpr int kWarmUp = 6;
+  const Measured typical = measure(options, Clock::Cpu, kWarmUp);
+  std::printf("%-14s", "times typical");
+  for (const std::string& stage : kStages) std::printf(" %10s", stage.c_str());
+  std::printf(" %9s\n%-14s", "regions", "typical CPU ms");
+  for (const std::string& stage : kStages) std::printf(" %10.3f", typical.timings.of(stage));
+  std::printf(" %9zu\n", typical.notes.mostRegions);
+  for (const std::string& pattern : patternNames()) {
+    options.pattern = pattern;
+    const Measured measured = measure(options, Clock::Cpu, kWarmUp);
+    std::printf("%-14s", pattern.c_str());
+    for (const std::string& stage : kStages)
+      std::printf(" %10.2f", measured.timings.of(stage) / typical.timings.of(stage));
+    std::printf(" %9zu\n", measured.notes.mostRegions);
+  }
+  return 0;
+}
+
 }  // namespace
 }  // namespace rg::bench
 
@@ -184,5 +205,6 @@ int main(int argc, char** argv) {
     std::cout << rg::bench::usage("bench");
     return 0;
   }
-  return options->asksTable ? rg::bench::runTable(*options) : rg::bench::run(*options);
+  if (options->asksTable) return rg::bench::runTable(*options);
+  return options->asksWorst ? rg::bench::runWorst(*options) : rg::bench::run(*options);
 }

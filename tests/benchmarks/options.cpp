@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "tests/benchmarks/options.hpp"
 
+#include "tests/benchmarks/scene.hpp"
+
 #include <charconv>
 #include <optional>
 #include <string_view>
@@ -35,7 +37,8 @@ struct NumberOption {
 constexpr NumberOption kNumbers[] = {{"--regions", &Options::regions, 1, 65535},
                                      {"--shift", &Options::shiftPx, 1, 64},
                                      {"--threads", &Options::threads, 0, 1024},
-                                     {"--frames", &Options::frames, 1, 1000000}};
+                                     {"--frames", &Options::frames, 1, 1000000},
+                                     {"--min-area", &Options::minAreaPx, 0, 1000000}};
 
 bool isKnown(std::string_view name) {
   for (const NumberOption& option : kNumbers)
@@ -43,17 +46,20 @@ bool isKnown(std::string_view name) {
   return name == "--input" || name == "--size" || name == "--scene";
 }
 
-bool setScene(SceneKind& scene, std::string_view value) {
-  if (value != "clip" && value != "synthetic") return false;
-  scene = value == "clip" ? SceneKind::Clip : SceneKind::Synthetic;
-  return true;
+bool setScene(Options& options, std::string_view value) {
+  options.pattern.clear();
+  for (const std::string& name : patternNames())
+    if (name == value) options.pattern = name;
+  if (value == "clip") options.scene = SceneKind::Clip;
+  if (value == "synthetic") options.scene = SceneKind::Synthetic;
+  return !options.pattern.empty() || value == "clip" || value == "synthetic";
 }
 
 bool set(Options& options, std::string_view name, std::string_view value) {
   if (name == "--input") options.input = value;
   if (name == "--input") return !value.empty();
   if (name == "--size") return setSize(options.size, value);
-  if (name == "--scene") return setScene(options.scene, value);
+  if (name == "--scene") return setScene(options, value);
   for (const NumberOption& option : kNumbers) {
     if (option.name != name) continue;
     const auto parsed = number(value, option.least, option.most);
@@ -74,8 +80,8 @@ Result<Options> parseOptions(std::span<const char* const> arguments) {
       options.asksHelp = true;
       return options;
     }
-    if (name == "--table") {
-      options.asksTable = true;
+    if (name == "--table" || name == "--worst") {
+      (name == "--table" ? options.asksTable : options.asksWorst) = true;
       continue;
     }
     if (!isKnown(name)) return Error{"unknown option: " + name};
@@ -92,16 +98,19 @@ Result<Options> parseOptions(std::span<const char* const> arguments) {
 
 std::string usage(const std::string& program) {
   return "usage: " + program +
-         " [--input FILE.y4m | --size WxH | --table] [--scene clip|synthetic] [--regions N]\n"
-         "       [--shift R] [--threads T] [--frames N]\n"
+         " [--input FILE.y4m | --size WxH | --table] [--scene NAME] [--worst]\n"
+         "       [--regions N] [--min-area N] [--shift R] [--threads T] [--frames N]\n"
          "  --input    frames to measure on (default: a scene)\n"
          "  --size     of the scene (default 640x480)\n"
          "  --table    all sizes and numbers of regions that the paper has times of\n"
          "  --scene    clip: real frames with noise, of the clip that the demo uses (looked for "
          "in\n"
          "             $REGIONGRAPH_CLIP, the cache folder and the package opencv-doc);\n"
-         "             synthetic: tiles and bodies (default: the clip where there is one)\n"
+         "             synthetic: tiles and bodies (default: the clip where there is one);\n"
+         "             flat, checkerboard, noise, comb, spiral, dots: frames made to be expensive\n"
+         "  --worst    these against the scene, stage by stage\n"
          "  --regions  in the synthetic scene, and at most in the segmentation (default 160)\n"
+         "  --min-area least pixels of a region (default 0: by the frame's size)\n"
          "  --shift    largest motion searched, in pixels (default 20)\n"
          "  --threads  0 = all cores (default 0)\n"
          "  --frames   measured after a warm-up (default 50)\n";

@@ -23,12 +23,15 @@ enum class SceneKind : uint8_t {
 struct Options {
   std::string input;  ///< A .y4m file; empty = a scene.
   SceneKind scene = SceneKind::Any;
+  std::string pattern;     ///< Instead of a scene: one of patternNames().
   Size size{640, 480};     ///< Of the scene.
   int regions = 160;       ///< In the synthetic scene, and the most that hsvsegment may make.
   int shiftPx = 20;        ///< Searched by prmmotion; things in the scene move by up to half of it.
   int threads = 0;         ///< 0 = all cores.
   int frames = 50;         ///< Measured, after a warm-up.
   bool asksTable = false;  ///< Measure the paper's sizes and numbers of regions.
+  int minAreaPx = 0;       ///< Of regions; 0 = by the frame's size.
+  bool asksWorst = false;  ///< Compare frames made to be expensive with those of the scene.
   bool asksHelp = false;   ///< Print the usage and do nothing.
 };
 

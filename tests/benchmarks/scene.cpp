@@ -139,6 +139,7 @@ std::unique_ptr<FrameSource> makeScene(const Options& options) {
 
 Result<std::unique_ptr<FrameSource>> openSource(const Options& options) {
   if (!options.input.empty()) return openY4m(options.input);
+  if (!options.pattern.empty()) return makePattern(options.pattern, options.size);
   if (options.scene == SceneKind::Synthetic) return makeScene(options);
   const std::string clip = findClip();
   if (!clip.empty()) return openClip(clip, options.size);

@@ -45,6 +45,11 @@ class FrameSource {
 /// its own, anew in each frame, so that nothing stands still.
 [[nodiscard]] Result<std::unique_ptr<FrameSource>> openClip(const std::string& path, Size size);
 
+/// Frames made to be expensive, moving or with noise of their own.
+[[nodiscard]] std::vector<std::string> patternNames();
+/// One of them; null for another name.
+[[nodiscard]] std::unique_ptr<FrameSource> makePattern(const std::string& name, Size size);
+
 /// As the options say. Where there is no clip, says so on stderr.
 [[nodiscard]] Result<std::unique_ptr<FrameSource>> openSource(const Options& options);
 

@@ -58,6 +58,13 @@ class Bench(unittest.TestCase):
         if status != 0:  # Installed as Debian's package it is always found.
             self.assertIn('REGIONGRAPH_CLIP', errors)
 
+    def test_measures_frames_made_to_be_expensive(self):
+        for pattern in ('checkerboard', 'dots', 'spiral'):
+            status, lines, errors = bench('--scene', pattern, '--size', '48x32', '--min-area', '1',
+                                          *QUICK)
+            self.assertEqual((status, errors), (0, ''))
+            self.assertTrue(lines[0].endswith(pattern), lines[0])
+
     def test_reads_a_file_from_its_start_again(self):
         with tempfile.TemporaryDirectory() as folder:
             clip = y4m(folder, 'YUV4MPEG2 W16 H8 F25:1 C420jpeg', bytes(range(192)))

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <cstdio>
+#include <ctime>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,13 +21,28 @@ namespace rg::bench {
   return values.size() % 2 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
 }
 
+/// What is read before and after a step.
+enum class Clock : uint8_t {
+  Wall,
+  Cpu,  ///< Time of all threads, whatever else runs on the machine.
+};
+
+[[nodiscard]] inline double nowMs(Clock clock) {
+  if (clock == Clock::Cpu) return 1000.0 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+  const std::chrono::duration<double, std::milli> now =
+      std::chrono::steady_clock::now().time_since_epoch();
+  return now.count();
+}
+
 /// One row per step, one column per frame.
 class Timings {
  public:
+  explicit Timings(Clock clock = Clock::Wall) : clock_(clock) {}
+
   /// Calls step() and books its milliseconds under `name`; steps keep the order of the first frame.
   template <class Step>
   decltype(auto) measure(const std::string& name, Step&& step) {
-    const Booking booking{*this, name, std::chrono::steady_clock::now()};
+    const Booking booking{*this, name, nowMs(clock_)};
     return std::forward<Step>(step)();
   }
 
@@ -63,12 +80,8 @@ class Timings {
   struct Booking {
     Timings& timings;
     const std::string& name;
-    std::chrono::steady_clock::time_point start;
-    ~Booking() {
-      const std::chrono::duration<double, std::milli> took =
-          std::chrono::steady_clock::now() - start;
-      timings.rowOf(name).ms.push_back(took.count());
-    }
+    double startMs;
+    ~Booking() { timings.rowOf(name).ms.push_back(nowMs(timings.clock_) - startMs); }
   };
 
   Row& rowOf(const std::string& name) {
@@ -77,6 +90,7 @@ class Timings {
     return rows_.emplace_back(Row{name, {}});
   }
 
+  Clock clock_;
   std::vector<Row> rows_;
 };
 
