@@ -15,7 +15,7 @@
 
 namespace rg {
 
-inline constexpr int kMostReach = 64;
+inline constexpr int kMostReach = 65;
 
 /// The previous luma with its border repeated.
 class PaddedLuma {

@@ -18,13 +18,10 @@ template <class Sum>
 class Surface {
  public:
   Surface(std::span<const Sum> sums, int reach) : sums_(sums), reach_(reach) {}
-  [[nodiscard]] int64_t at(Point d) const {
-    const int side = 2 * reach_ + 1;
-    return static_cast<int64_t>(sums_[static_cast<size_t>((reach_ - d.y) * side + reach_ - d.x)]);
+  [[nodiscard]] size_t indexOf(Point d) const {
+    return static_cast<size_t>((reach_ - d.y) * (2 * reach_ + 1) + reach_ - d.x);
   }
-  [[nodiscard]] bool isOnBorder(Point d) const {
-    return std::max(absDiff(d.x, 0), absDiff(d.y, 0)) == reach_;
-  }
+  [[nodiscard]] int64_t at(Point d) const { return static_cast<int64_t>(sums_[indexOf(d)]); }
   [[nodiscard]] int reach() const { return reach_; }
   [[nodiscard]] std::span<const Sum> sums() const { return sums_; }
 
@@ -34,15 +31,14 @@ class Surface {
 };
 
 template <class Sum>
-Point findBest(const Surface<Sum>& surface) {
-  const Sum least = *std::min_element(surface.sums().begin(), surface.sums().end());
-  const int reach = surface.reach();
-  const auto key = [](Point d) { return std::tuple(d.x * d.x + d.y * d.y, d.y, d.x); };
-  Point best{INT16_MAX, INT16_MAX};
-  for (int dx = -reach; dx <= reach; ++dx)
-    for (int dy = -reach; dy <= reach; ++dy)
-      if (surface.at({dx, dy}) == static_cast<int64_t>(least) && key({dx, dy}) < key(best))
-        best = {dx, dy};
+Point findBest(const Surface<Sum>& surface, int maxShift) {
+  const auto key = [&](Point d) {
+    return std::tuple(surface.at(d), d.x * d.x + d.y * d.y, d.y, d.x);
+  };
+  Point best{0, 0};
+  for (int dy = -maxShift; dy <= maxShift; ++dy)
+    for (int dx = -maxShift; dx <= maxShift; ++dx)
+      if (surface.at({dx, dy}) <= surface.at(best) && key({dx, dy}) < key(best)) best = {dx, dy};
   return best;
 }
 
@@ -92,12 +88,13 @@ int64_t peakReliability(const Surface<Sum>& surface, Point v, int64_t pixels) {
 }  // namespace
 
 template <class Sum>
-RegionMotion estimateMotion(std::span<const Sum> sums, int reach, const GradientSums& gradients) {
+RegionMotion estimateMotion(std::span<const Sum> sums, int reach, int maxShift,
+                            const GradientSums& gradients) {
   const Surface<Sum> surface(sums, reach);
-  const Point v = findBest(surface);
+  const Point v = findBest(surface, maxShift);
   RegionMotion motion{v.x * kMotionUnit, v.y * kMotionUnit, static_cast<uint64_t>(surface.at(v)),
                       0};
-  if (surface.isOnBorder(v)) return motion;
+  if (*std::min_element(sums.begin(), sums.end()) < sums[surface.indexOf(v)]) return motion;
   const auto pixels = static_cast<int64_t>(gradients.pixels);
   int64_t reliability =
       std::min(gradientReliability(gradients), curvatureReliability(surface, v, pixels));
@@ -107,7 +104,7 @@ RegionMotion estimateMotion(std::span<const Sum> sums, int reach, const Gradient
   return motion;
 }
 
-template RegionMotion estimateMotion(std::span<const uint32_t>, int, const GradientSums&);
-template RegionMotion estimateMotion(std::span<const uint64_t>, int, const GradientSums&);
+template RegionMotion estimateMotion(std::span<const uint32_t>, int, int, const GradientSums&);
+template RegionMotion estimateMotion(std::span<const uint64_t>, int, int, const GradientSums&);
 
 }  // namespace rg

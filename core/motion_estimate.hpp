@@ -24,10 +24,12 @@ inline void add(GradientSums& to, const GradientSums& from) {
   to.pixels += from.pixels;
 }
 
-/// The best whole-pixel shift. sums: as core/block_matching.hpp orders them. Where nothing changed
-/// the shifts farther than 1 px don't count: the result is the same for any reach.
+/// The best whole-pixel shift of those within maxShift, which is less than `reach`: the ring of
+/// shifts beyond tells a motion on the border of the search, which can be relied on, from one that
+/// goes further. sums: of all shifts within `reach`, as core/block_matching.hpp orders them. Where
+/// nothing changed the shifts farther than 1 px don't count: the result is the same for any reach.
 template <class Sum>
-[[nodiscard]] RegionMotion estimateMotion(std::span<const Sum> sums, int reach,
+[[nodiscard]] RegionMotion estimateMotion(std::span<const Sum> sums, int reach, int maxShift,
                                           const GradientSums& gradients);
 
 }  // namespace rg

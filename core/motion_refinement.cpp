@@ -1,59 +1,170 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/motion_refinement.hpp"
 
-#include "core/normal_sums.hpp"
 #include "core/pixel.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cstdlib>
 
 namespace rg {
 namespace {
 
-constexpr int kSteps = 4;
-/// Added to the gradients of each pixel, squared: keeps steps small where there are none.
-constexpr int64_t kNoise = 4;
+constexpr int kTrialSteps = 2;
+constexpr int kOwnSteps = 2;
+constexpr int kPriorSteps = 3;
 /// Pixels fit when their residual is at most so many times the mean, and kLeastLimit more.
 constexpr int64_t kFitFactor = 3;
 constexpr int64_t kLeastLimit = 2 * kFine;
+constexpr int kFinePerUnit = kFine / kMotionUnit;
+/// A consensus nearer than that needs no fit of its own: 1/4 px.
+constexpr int64_t kNear = kFine / 8;
+constexpr int64_t kQuarter = kFine / 4;
+constexpr int64_t kHalf = kFine / 2;
 
-/// The step that the fitting pixels ask for, in 1/128 px. Sums are scaled down together to 30 bits,
-/// so that all products fit 64.
-Point solve(const NormalSums& sums) {
-  const int64_t xx = sums.xx + kNoise * sums.pixels, yy = sums.yy + kNoise * sums.pixels;
-  const int64_t largest = std::max({xx, yy, std::abs(sums.xr), std::abs(sums.yr)});
-  const int shift =
-      std::max(0, static_cast<int>(std::bit_width(static_cast<uint64_t>(largest))) - 30);
-  const int64_t a = xx >> shift, b = sums.xy >> shift, c = yy >> shift;
-  const int64_t u = sums.xr >> shift, v = sums.yr >> shift;
-  const int64_t determinant = a * c - b * b;
-  if (determinant <= 0) return {};
-  const auto step = [&](int64_t numerator) {
-    return static_cast<int>(
-        std::clamp<int64_t>(divideRounded(-2 * numerator, determinant), -kFine, kFine));
+int64_t squaredDistance(Point a, Point b) {
+  const int64_t dx = a.x - b.x, dy = a.y - b.y;
+  return dx * dx + dy * dy;
+}
+
+/// The binomial mean of 3x3 pixels; the picture's border repeats.
+void smooth(ImageView<const uint8_t> from, const Executor& executor, Image<uint8_t>& across,
+            Image<uint8_t>& to) {
+  const int width = from.width(), height = from.height();
+  across.resize(from.size);
+  to.resize(from.size);
+  const auto mean = [](int a, int b, int c) {
+    return static_cast<uint8_t>((a + 2 * b + c + 2) >> 2);
   };
-  return {step(c * u - b * v), step(a * v - b * u)};
+  executor.forRows(height, [&](int first, int last) {
+    for (int y = first; y < last; ++y) {
+      const uint8_t* row = from.row(y);
+      uint8_t* out = across.row(y);
+      out[0] = mean(row[0], row[0], row[std::min(1, width - 1)]);
+      for (int x = 1; x < width - 1; ++x) out[x] = mean(row[x - 1], row[x], row[x + 1]);
+      out[width - 1] = mean(row[std::max(width - 2, 0)], row[width - 1], row[width - 1]);
+    }
+  });
+  executor.forRows(height, [&](int first, int last) {
+    for (int y = first; y < last; ++y) {
+      const uint8_t *above = across.row(std::max(y - 1, 0)), *row = across.row(y),
+                    *below = across.row(std::min(y + 1, height - 1));
+      uint8_t* out = to.row(y);
+      for (int x = 0; x < width; ++x) out[x] = mean(above[x], row[x], below[x]);
+    }
+  });
+}
+
+/// What is left of a reliability: little where the pixels don't fit, where the neighbours expect
+/// another vector, if only so far: neighbours of another object do so rightly. None where more than
+/// a quarter of the region has no match inside the previous frame.
+int judge(int reliability, const FitRegion& region, const MotionFit& fit,
+          const MotionPrior& prior) {
+  constexpr int64_t kMisfit = kFine * 3 / 2, kGain = 4;
+  if (fit.seen * int64_t{4} < region.pixels * int64_t{3}) return 0;
+  int64_t left = kGain * reliability;
+  for (int i = 0; i < 2; ++i) left = left * kMisfit / (kMisfit + fit.misfit);
+  if (prior.weight > 0) {
+    const auto apart =
+        static_cast<int64_t>(integerSqrt(static_cast<uint64_t>(squaredDistance(fit.at, prior.at))));
+    left = left * kQuarter / (kQuarter + std::min(apart, kHalf));
+  }
+  return static_cast<int>(std::min<int64_t>(left, kFullReliability));
+}
+
+/// By how much a misfit may differ by chance: it shrinks with the number of pixels, but where
+/// another shift matches nearly as well, the surface of sums says little at all.
+int64_t slackOf(const MotionFit& own, const MotionPrior& prior, int reliability) {
+  constexpr int64_t kChance = 12, kFull = 4 * 256;
+  constexpr int kAmbiguous = kFullReliability / 10;
+  const auto root =
+      static_cast<int64_t>(integerSqrt(uint64_t{256} * 256 * std::max(own.pixels, 1u)));
+  const int64_t ambiguous = std::max(0, kAmbiguous - reliability) * 256 / (10 * kAmbiguous);
+  const int64_t share = kChance * 256 * 256 / root + ambiguous;
+  return (own.misfit + kFine) * share / 256 * std::min(prior.weight, kFull) / kFull;
+}
+
+/// What of the slack a vector has used up by its distance from the prior, half of it at 1 px.
+int64_t penalty(Point at, const MotionPrior& prior, int64_t slack) {
+  const int64_t distance = squaredDistance(at, prior.at);
+  return slack * distance / (distance + int64_t{kFine} * kFine);
 }
 
 }  // namespace
 
-Point refineMotion(std::span<const MatchedPart> parts, ImageView<const uint8_t> luma,
-                   const PaddedLuma& previous, const RegionMotion& start) {
+void MotionRefinement::run(const Graph& graph, const MatchedBlocks& blocks, const Picture& before,
+                           const PaddedLuma& previous, const Executor& executor,
+                           std::span<RegionMotion> motion) {
+  graph_ = &graph;
+  blocks_ = &blocks;
+  smooth(before.luma(), executor, across_, smoothBefore_);
+  smoothPrevious_.build(smoothBefore_, previous.reach(), executor);
+  smooth(graph.labels->picture->luma(), executor, across_, smoothCurrent_);
+  planes_ = {FitPlane{graph.labels->picture->luma(), &previous},
+             FitPlane{smoothCurrent_, &smoothPrevious_}};
+  alone_.resize(motion.size());
+  own_.resize(motion.size());
+  const auto count = static_cast<int>(motion.size());
+  executor.forEach(count, [&](int index) {
+    const auto i = static_cast<size_t>(index);
+    alone_[i] = fitAlone(regionOf(i, motion), motion[i]);
+    const Information& known = alone_[i].fit.information;
+    const int64_t trust = motion[i].reliability;
+    own_[i] = {alone_[i].fit.at,
+               {known.xx * trust / kFullReliability, known.xy * trust / kFullReliability,
+                known.yy * trust / kFullReliability}};
+  });
+  const std::span<const MotionPrior> priors = consensus_.run(graph, own_, executor);
+  executor.forEach(count, [&](int index) {
+    const auto i = static_cast<size_t>(index);
+    const FitRegion region = regionOf(i, motion);
+    RegionMotion& result = motion[i];
+    const MotionFit fit = fitTogether(region, alone_[i], priors[i], result.reliability);
+    result.reliability = static_cast<uint16_t>(judge(result.reliability, region, fit, priors[i]));
+    result.dx = static_cast<int>(divideRounded(fit.at.x, kFinePerUnit));
+    result.dy = static_cast<int>(divideRounded(fit.at.y, kFinePerUnit));
+  });
+}
+
+FitRegion MotionRefinement::regionOf(size_t i, std::span<const RegionMotion> motion) const {
+  const Region& region = graph_->regions[i];
+  const std::span<const MatchedPart> parts = blocks_->partsOf(static_cast<uint32_t>(i) + 1);
   int64_t pixels = 0;
   for (const MatchedPart& part : parts) pixels += part.pixels();
-  const int64_t mean = static_cast<int64_t>(start.sad) * kFine / std::max<int64_t>(pixels, 1);
-  const auto limit = static_cast<int>(std::min<int64_t>(kFitFactor * mean + kLeastLimit, kNoLimit));
-  const int unit = kFine / kMotionUnit;
-  const Point origin{start.dx * unit, start.dy * unit};
-  Point d = origin;
-  for (int step = 0; step < kSteps; ++step) {
-    const Point move = solve(sumNormals(parts, luma, previous, d, limit));
-    if (move == Point{}) break;
-    d = {std::clamp(d.x + move.x, origin.x - kFine + 1, origin.x + kFine - 1),
-         std::clamp(d.y + move.y, origin.y - kFine + 1, origin.y + kFine - 1)};
+  const int64_t mean = static_cast<int64_t>(motion[i].sad) * kFine / std::max<int64_t>(pixels, 1);
+  const auto limit = std::min<int64_t>(kFitFactor * mean + kLeastLimit, 255 * kFine);
+  return {parts, {region.centroidX >> 8, region.centroidY >> 8}, static_cast<int>(limit), pixels};
+}
+
+MotionRefinement::Candidate MotionRefinement::fitAlone(const FitRegion& region,
+                                                       const RegionMotion& motion) const {
+  MotionFit start;
+  start.at = {motion.dx * kFinePerUnit, motion.dy * kFinePerUnit};
+  Candidate best;
+  int64_t known = -1;
+  for (uint8_t plane = 0; plane < planes_.size(); ++plane) {
+    const MotionFit fit = fitMotion(region, planes_[plane], start, {}, kTrialSteps);
+    const int64_t least = leastInformation(fit.information);
+    if (least <= known) continue;
+    known = least;
+    best = {fit, plane};
   }
-  return {static_cast<int>(divideRounded(d.x, unit)), static_cast<int>(divideRounded(d.y, unit))};
+  return best;
+}
+
+MotionFit MotionRefinement::fitTogether(const FitRegion& region, const Candidate& own,
+                                        const MotionPrior& prior, int reliability) const {
+  const FitPlane& plane = planes_[own.plane];
+  const MotionFit mine = fitMotion(region, plane, own.fit, prior, kOwnSteps);
+  if (squaredDistance(own.fit.at, prior.at) <= kNear * kNear || prior.weight == 0) return mine;
+  MotionFit start;
+  start.at = prior.at;
+  if (region.parts.empty()) return start;
+  const MotionFit theirs = fitMotion(region, plane, start, prior, kPriorSteps);
+  const int64_t slack = slackOf(own.fit, prior, reliability);
+  return theirs.misfit + penalty(theirs.at, prior, slack) <=
+                 mine.misfit + penalty(mine.at, prior, slack)
+             ? theirs
+             : mine;
 }
 
 }  // namespace rg

@@ -1,25 +1,51 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// The fraction of a pixel by which a region moved, from the gradients of all its pixels (part of
-// stage 4).
+// From whole-pixel vectors of the regions to fractions of a pixel, with what the neighbours say
+// where a region says little itself (part of stage 4).
 //
-// Starting at the best whole-pixel shift v, the step that takes I_t−1(x − v) to I_t(x) to first
-// order solves a 2x2 system of gradient products (least squares); a few steps with bilinear samples
-// converge. Pixels that fit much worse than the region's mean are left out of a step: they are
-// covered, uncovered or another region's.
-// Determinism: integer sums over pixels, integer division.
+// Each region is fitted from its own vector, on the luma or the smoothed luma, whichever tells
+// more: fine texture drowns in noise on the one side, and is smoothed away on the other. Then all
+// look for a consensus (core/motion_consensus.hpp), and each is fitted again with it as its prior,
+// from its own vector and, where the consensus is elsewhere, from there. The consensus wins where
+// it explains the pixels as well as the region's own vector does, up to what chance leaves.
+// Determinism: integers; regions depend on each other through the consensus only.
 #pragma once
 
-#include "core/block_matching.hpp"
+#include "core/motion_consensus.hpp"
+#include "core/picture.hpp"
 #include "core/region_motion.hpp"
 
-#include <cstdint>
+#include <array>
 #include <span>
+#include <vector>
 
 namespace rg {
 
-/// parts: all of one region. Returns the vector in 1/16 px, less than a pixel from `start`, which
-/// is whole and not on the border of the search.
-[[nodiscard]] Point refineMotion(std::span<const MatchedPart> parts, ImageView<const uint8_t> luma,
-                                 const PaddedLuma& previous, const RegionMotion& start);
+class MotionRefinement {
+ public:
+  /// `previous`: the luma of the frame before, padded. Replaces the vectors in `motion`, whole
+  /// pixels; regions without matched blocks take over the consensus.
+  void run(const Graph& graph, const MatchedBlocks& blocks, const Picture& before,
+           const PaddedLuma& previous, const Executor& executor, std::span<RegionMotion> motion);
+
+ private:
+  struct Candidate {
+    MotionFit fit;
+    uint8_t plane = 0;
+  };
+
+  [[nodiscard]] FitRegion regionOf(size_t i, std::span<const RegionMotion> motion) const;
+  [[nodiscard]] Candidate fitAlone(const FitRegion& region, const RegionMotion& motion) const;
+  [[nodiscard]] MotionFit fitTogether(const FitRegion& region, const Candidate& own,
+                                      const MotionPrior& prior, int reliability) const;
+
+  const Graph* graph_ = nullptr;
+  const MatchedBlocks* blocks_ = nullptr;
+  Image<uint8_t> across_, smoothCurrent_, smoothBefore_;
+  PaddedLuma smoothPrevious_;
+  std::array<FitPlane, 2> planes_;
+  std::vector<Candidate> alone_;
+  std::vector<OwnMotion> own_;
+  MotionConsensus consensus_;
+};
 
 }  // namespace rg

@@ -2,10 +2,10 @@
 #include "core/region_motion.hpp"
 
 #include "core/block_matching.hpp"
+#include "core/fit_sums.hpp"
 #include "core/matched_blocks.hpp"
 #include "core/motion_estimate.hpp"
 #include "core/motion_refinement.hpp"
-#include "core/normal_sums.hpp"
 #include "core/pool.hpp"
 
 #include <algorithm>
@@ -35,9 +35,15 @@ struct Group {
 
 GradientSums gradientsOf(std::span<const MatchedPart> parts, ImageView<const uint8_t> luma,
                          const PaddedLuma& previous) {
-  const NormalSums sums = sumNormals(parts, luma, previous, {}, kNoLimit);
-  GradientSums gradients{sums.xx, sums.xy, sums.yy, 0};
-  for (const MatchedPart& part : parts) gradients.pixels += part.pixels();
+  constexpr int kNoLimit = 255 * kFine;
+  GradientSums gradients;
+  for (const MatchedPart& part : parts) {
+    gradients.pixels += part.pixels();
+    forCells(part, [&](const MatchedCell& cell) {
+      const FitSums sums = sumFit(cell, luma, previous, {}, kNoLimit);
+      add(gradients, {sums.xx, sums.xy, sums.yy, 0});
+    });
+  }
   return gradients;
 }
 
@@ -66,7 +72,6 @@ class CpuMotion : public MotionStage {
   void cutChunks();
   void matchBatch(size_t first, size_t last, const Labels& labels);
   void closeBatch(size_t first, size_t last, Motion& motion);
-  void refine(const Labels& labels, Motion& motion);
   void addToCarry(const Group& group);
   [[nodiscard]] RegionMotion closeGroup(const Group& group);
 
@@ -84,14 +89,15 @@ class CpuMotion : public MotionStage {
   std::vector<uint8_t> isStill_;  ///< By label: none of its matched pixels has changed.
   std::vector<Chunk> chunks_;
   std::vector<Group> groups_;
-  int reach_ = 0;
-  bool isSubpixel_ = true;
+  int maxShift_ = 0;
+  int reach_ = 0;  ///< A ring of shifts beyond.
   size_t shifts_ = 0;
   std::vector<uint32_t> sums_;           ///< By chunk of the batch, then by shift.
   std::vector<GradientSums> gradients_;  ///< By chunk of the batch.
   std::vector<MatchScratch> scratch_;
   std::vector<uint64_t> carry_;  ///< Sums of the region that the batch before left open.
   GradientSums carriedGradients_;
+  MotionRefinement refinement_;
   Pool<Motion> pool_;
 };
 
@@ -115,8 +121,8 @@ Result<std::shared_ptr<const Motion>> CpuMotion::process(std::shared_ptr<const G
 }
 
 void CpuMotion::match(const Graph& graph, const MotionParams& params, Motion& motion) {
-  reach_ = std::clamp(params.maxShiftPx, 1, kMostReach);
-  isSubpixel_ = params.isSubpixel;
+  maxShift_ = std::clamp(params.maxShiftPx, 1, kMostReach - 1);
+  reach_ = maxShift_ + 1;
   shifts_ = static_cast<size_t>(shiftCount(reach_));
   const Labels& labels = *graph.labels;
   blocks_.find(labels.ids, graph.regions, *context_.cpu);
@@ -135,19 +141,8 @@ void CpuMotion::match(const Graph& graph, const MotionParams& params, Motion& mo
     matchBatch(first, last, labels);
     closeBatch(first, last, motion);
   }
-  if (isSubpixel_) refine(labels, motion);
-}
-
-void CpuMotion::refine(const Labels& labels, Motion& motion) {
-  context_.cpu->forEach(static_cast<int>(labels.count), [&](int i) {
-    const auto label = static_cast<size_t>(i) + 1;
-    RegionMotion& region = motion.regions[label - 1];
-    if (std::max(std::abs(region.dx), std::abs(region.dy)) >= reach_ * kMotionUnit) return;
-    const Point d = refineMotion(blocks_.partsOf(static_cast<uint32_t>(label)),
-                                 labels.picture->luma(), padded_, region);
-    region.dx = d.x;
-    region.dy = d.y;
-  });
+  if (params.isSubpixel)
+    refinement_.run(graph, blocks_, *previous_, padded_, *context_.cpu, motion.regions);
 }
 
 // Where nothing changed no shift is better than none, and of the others only the nearest count.
@@ -162,7 +157,7 @@ void CpuMotion::findStill(const Labels& labels, Motion& motion) {
     std::array<uint32_t, shiftCount(1)> sums{};
     addParts(parts, luma, {padded_, 1}, scratch_[static_cast<size_t>(thread)], sums);
     motion.regions[label - 1] =
-        estimateMotion<uint32_t>(sums, 1, gradientsOf(parts, luma, padded_));
+        estimateMotion<uint32_t>(sums, 1, 0, gradientsOf(parts, luma, padded_));
   });
   for (const MatchedPart& part : blocks_.parts()) {
     motion.matchedBlocks += part.pixels() / kBlockWidth;
@@ -211,7 +206,7 @@ void CpuMotion::closeBatch(size_t first, size_t last, Motion& motion) {
     begin = 1;
     if (goesOn && end == 1) return;
     motion.regions[labelOf(first) - 1u] =
-        estimateMotion<uint64_t>(carry_, reach_, carriedGradients_);
+        estimateMotion<uint64_t>(carry_, reach_, maxShift_, carriedGradients_);
     std::fill(carry_.begin(), carry_.end(), 0u);
     carriedGradients_ = {};
   }
@@ -238,7 +233,7 @@ RegionMotion CpuMotion::closeGroup(const Group& group) {
     for (size_t i = 0; i < shifts_; ++i) total[i] += sums[i];
     add(gradients_[group.first], gradients_[slot]);
   }
-  return estimateMotion<uint32_t>(total, reach_, gradients_[group.first]);
+  return estimateMotion<uint32_t>(total, reach_, maxShift_, gradients_[group.first]);
 }
 
 }  // namespace

@@ -2,10 +2,14 @@
 // Stage 4, element prmmotion: partitioned region matching (paper, section 2.3 phase 2.1).
 //
 // A region's vector is the shift d = (dx, dy) that makes SAD(d) = sum over its matched pixels x of
-// |I_t(x) − I_t−1(x − d)| smallest: by how much it moved since the previous frame. Matched are
-// blocks of pixels away from the region's border (core/matched_blocks.hpp). Pixels outside the
-// previous frame repeat its border. The fraction of a pixel follows from the gradients
-// (core/motion_refinement.hpp).
+// |I_t(x) − I_t−1(x − d)| smallest: by how much it moved since the previous frame. Matched are the
+// pixels away from the region's border (core/matched_blocks.hpp). Pixels outside the previous frame
+// repeat its border. The fraction of a pixel follows from the gradients, and what a region can't
+// tell itself, from its neighbours (core/motion_refinement.hpp).
+//
+// The reliability is what the region itself saw: low where the luma is flat, or changes along one
+// direction only, where another shift matches nearly as well, where the match is poor or differs
+// from the neighbours', where part of it lies outside the previous frame.
 // Determinism: integer sums. Tie-break: smallest (SAD, |d|², dy, dx).
 #pragma once
 
@@ -44,8 +48,8 @@ struct Motion {
 };
 
 struct MotionParams {
-  int maxShiftPx = 20;  ///< Searched in both directions of both axes. 1 … 64.
-  bool isSubpixel = true;
+  int maxShiftPx = 20;     ///< Searched in both directions of both axes. 1 … 64.
+  bool isSubpixel = true;  ///< False: the best whole-pixel shifts, of no neighbour's influence.
 };
 
 class MotionStage {

@@ -226,12 +226,96 @@ TEST(RegionMotion, ARepeatedPatternIsAmbiguous) {
   EXPECT_EQ(motion->regions[0].reliability, 0);
 }
 
-TEST(RegionMotion, AVectorOnTheBorderOfTheSearchIsNotReliable) {
+TEST(RegionMotion, AVectorOnTheBorderOfTheSearchIsToldFromAMotionBeyond) {
   const Size size{64, 64};
   const LabelAt inside = [](int x, int y) { return x > 9 && x < 54 && y > 9 && y < 54 ? 1 : 0; };
-  const auto motion = match(movedNoise(size, 0, 0), movedNoise(size, 5, 0), 1, inside, {5, true});
-  EXPECT_EQ(motion->regions[0].dx, 5 * kMotionUnit);
-  EXPECT_EQ(motion->regions[0].reliability, 0);
+  const auto on = match(movedNoise(size, 0, 0), movedNoise(size, 5, 0), 1, inside, {5, true});
+  EXPECT_EQ(on->regions[0].dx, 5 * kMotionUnit);
+  EXPECT_GT(on->regions[0].reliability, kFullReliability / 2);
+  const auto beyond = match(movedNoise(size, 0, 0), movedNoise(size, 6, 0), 1, inside, {5, true});
+  EXPECT_EQ(beyond->regions[0].reliability, 0);
+}
+
+/// Grey levels drawn by lot every 4 px, in between smooth: nowhere like elsewhere.
+double texture(double x, double y) {
+  const auto lot = [](double column, double row) {
+    const auto a = static_cast<uint32_t>(static_cast<int>(column) + 1000);
+    const auto b = static_cast<uint32_t>(static_cast<int>(row) + 1000);
+    return static_cast<double>(mixHash(a, b, 9) % 200 + 28);
+  };
+  const double u = x / 4, v = y / 4, column = std::floor(u), row = std::floor(v);
+  const auto ease = [](double t) { return t * t * (3 - 2 * t); };
+  const double right = ease(u - column), below = ease(v - row);
+  return (lot(column, row) * (1 - right) + lot(column + 1, row) * right) * (1 - below) +
+         (lot(column, row + 1) * (1 - right) + lot(column + 1, row + 1) * right) * below;
+}
+
+std::shared_ptr<const Picture> movedTexture(Size size, double dx, double dy) {
+  return paintGrey(size, [=](int x, int y) { return std::lround(texture(x - dx, y - dy)); });
+}
+
+// 6 x 5 tiles of 24 px; what a shift brings in from outside is 20 px wide.
+TEST(RegionMotion, EveryTileOfATextureMovesAsThePictureDoes) {
+  const Size size{144, 120};
+  const LabelAt tiles = [](int x, int y) { return 1 + x / 24 + y / 24 * 6; };
+  const auto previous = movedTexture(size, 0, 0);
+  for (const double dx : {-20.0, 3.0, 20.0, 7.25, -13.5})
+    for (const double dy : {20.0, 0.0, -11.0, -2.75}) {
+      const auto motion = match(previous, movedTexture(size, dx, dy), 30, tiles, {20, true});
+      const bool isWhole = std::floor(dx) == dx && std::floor(dy) == dy;
+      int reliable = 0;
+      for (const RegionMotion& region : motion->regions) {
+        if (region.reliability == 0) continue;
+        ++reliable;
+        EXPECT_NEAR(region.dx, dx * kMotionUnit, isWhole ? 0 : 0.15 * kMotionUnit);
+        EXPECT_NEAR(region.dy, dy * kMotionUnit, isWhole ? 0 : 0.15 * kMotionUnit);
+      }
+      EXPECT_GE(reliable, 5 * 4) << dx << ' ' << dy;
+    }
+}
+
+/// Left half textured, right half flat but for its noise; both move alike.
+std::shared_ptr<const Picture> halfTexture(int dx, unsigned seed) {
+  return paintGrey({96, 64}, [=](int x, int y) {
+    const auto bits = mixHash(static_cast<uint32_t>(x), static_cast<uint32_t>(y), seed);
+    return x - dx < 48 ? std::lround(texture(x - dx, y)) : 128 + static_cast<int>(bits % 3);
+  });
+}
+
+TEST(RegionMotion, AFlatRegionMovesWithItsNeighbourButSaysThatItSawNothing) {
+  const auto motion = match(halfTexture(0, 1), halfTexture(4, 2), 2,
+                            [](int x, int) { return x < 52 ? 1 : 2; }, {8, true});
+  EXPECT_EQ(motion->regions[0].dx, 4 * kMotionUnit);
+  EXPECT_NEAR(motion->regions[1].dx, 4 * kMotionUnit, 2);
+  EXPECT_NEAR(motion->regions[1].dy, 0, 2);
+  EXPECT_LE(motion->regions[1].reliability, 8);
+}
+
+TEST(RegionMotion, AChangeOfBrightnessIsNoMotion) {
+  const Size size{80, 72};
+  const auto previous = movedTexture(size, 0, 0);
+  const auto brighter =
+      paintGrey(size, [](int x, int y) { return std::lround(texture(x - 2.25, y + 1.5)) + 6; });
+  const auto motion =
+      match(previous, brighter, 1,
+            [](int x, int y) { return x >= 10 && x < 70 && y >= 10 && y < 62 ? 1 : 0; }, {8, true});
+  EXPECT_NEAR(motion->regions[0].dx, 2.25 * kMotionUnit, 1.0);
+  EXPECT_NEAR(motion->regions[0].dy, -1.5 * kMotionUnit, 1.0);
+}
+
+TEST(RegionMotion, FractionsAreTheSameForAnyNumberOfThreads) {
+  const Size size{133, 91};
+  const LabelAt tiles = [](int x, int y) { return 1 + x / 19 + y / 13 * 7; };
+  const auto previous = greyNoise(size, 4), current = greyNoise(size, 5);
+  const auto one = match(previous, current, 49, tiles, {6, true}, 1);
+  for (const int threads : {2, 3, 4}) {
+    const auto more = match(previous, current, 49, tiles, {6, true}, threads);
+    for (size_t i = 0; i < one->regions.size(); ++i) {
+      EXPECT_EQ(one->regions[i].dx, more->regions[i].dx);
+      EXPECT_EQ(one->regions[i].dy, more->regions[i].dy);
+      EXPECT_EQ(one->regions[i].reliability, more->regions[i].reliability);
+    }
+  }
 }
 
 TEST(RegionMotion, WithoutAPreviousFrameAllVectorsAreZero) {

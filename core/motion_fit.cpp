@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "core/motion_fit.hpp"
+
+#include "core/pixel.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cstdlib>
+
+namespace rg {
+namespace {
+
+constexpr int kUnknowns = 6;
+constexpr int kMeanBits = 12;
+/// Beyond it a region moves as it does there.
+constexpr int kMostOffsetPx = 512;
+/// Pixels are not independent: so many say as much as one would.
+constexpr int64_t kCorrelation = 8;
+/// Least variance of a residual, in 1/256 grey levels squared: that of rounding, and more.
+constexpr int64_t kLeastVariance = 128;
+/// Added to the squared gradient of each pixel, per mean: keeps steps small where there are none.
+constexpr int64_t kFlat = int64_t{4} << kMeanBits;
+/// Slopes are expected to be 0 within 0.3 px per 32 px.
+constexpr int64_t kSlopeWeight = 2844;
+/// A shared change of brightness is believed as if so many pixels had seen none.
+constexpr int64_t kSteadyPixels = 16;
+constexpr int kTurns = 3;
+
+using Row = std::array<int64_t, kUnknowns>;
+
+/// Sums over all cells, the displacements' derivatives taken in.
+struct Moments {
+  std::array<Row, kUnknowns> products{};
+  Row residuals{};
+  Row gradients{};
+  int64_t pixels = 0, seen = 0, r = 0, rr = 0, misfit = 0;
+};
+
+Point offsetOf(const MatchedCell& cell, Point centroid) {
+  const auto bounded = [](int d) { return std::clamp(d, -kMostOffsetPx, kMostOffsetPx); };
+  return {bounded(cell.x + kCellSize / 2 - centroid.x),
+          bounded(cell.y + kCellSize / 2 - centroid.y)};
+}
+
+Point displacementAt(const MotionFit& fit, Point offset, int reach) {
+  const int most = reach * kFine - 1;
+  const auto along = [&](int at, int slopeX, int slopeY) {
+    return std::clamp(at + (slopeX * offset.x + slopeY * offset.y) / kSlopeUnitPx, -most, most);
+  };
+  return {along(fit.at.x, fit.slopes[0], fit.slopes[1]),
+          along(fit.at.y, fit.slopes[2], fit.slopes[3])};
+}
+
+// Unknowns: x, y, then x along X and Y, then y along X and Y. Those of x go with the gradient gx,
+// those of y with gy. Moments stay below 2^41 · 2^18.
+void addCell(const FitSums& sums, Point offset, Moments& moments) {
+  const std::array<int64_t, kUnknowns> place = {1, 1, offset.x, offset.y, offset.x, offset.y};
+  constexpr std::array<bool, kUnknowns> kIsY = {false, true, false, false, true, true};
+  for (size_t i = 0; i < kUnknowns; ++i) {
+    for (size_t j = i; j < kUnknowns; ++j) {
+      const int64_t product = kIsY[i] != kIsY[j] ? sums.xy : kIsY[i] ? sums.yy : sums.xx;
+      moments.products[i][j] += product * place[i] * place[j];
+    }
+    moments.residuals[i] += (kIsY[i] ? sums.yr : sums.xr) * place[i];
+    moments.gradients[i] += (kIsY[i] ? sums.y : sums.x) * place[i];
+  }
+  moments.pixels += sums.pixels;
+  moments.seen += sums.seen;
+  moments.r += sums.r;
+  moments.rr += sums.rr;
+  moments.misfit += sums.misfit;
+}
+
+/// Means in 1/4096, positions in units of 32 px.
+struct Equations {
+  std::array<Row, kUnknowns> products{};
+  Row right{};           ///< In 1/256 px times products.
+  int64_t variance = 0;  ///< Of a fitting pixel, 1/256 grey levels squared.
+};
+
+int64_t meanOf(int64_t sum, int64_t count, int places) {
+  const int64_t unit = int64_t{1} << kMeanBits;
+  const int64_t scaled = std::abs(sum) < (int64_t{1} << 50)
+                             ? sum * unit / count
+                             : sum / std::max<int64_t>(count / unit, 1);
+  return scaled / (places == 0 ? 1 : places == 1 ? kSlopeUnitPx : kSlopeUnitPx * kSlopeUnitPx);
+}
+
+// The shared change of brightness is eliminated: it takes the means out of all products.
+Equations normalise(const Moments& moments) {
+  Equations e;
+  const int64_t count = std::max<int64_t>(moments.pixels, 1);
+  const auto places = [](size_t i) { return i < 2 ? 0 : 1; };
+  const int64_t known = count * 256 / (count + kSteadyPixels);
+  Row gradient{};
+  for (size_t i = 0; i < kUnknowns; ++i)
+    gradient[i] = meanOf(moments.gradients[i], count, places(i));
+  const int64_t residual = meanOf(moments.r, count, 0);
+  const auto common = [&](int64_t a, int64_t b) { return ((a * b) >> kMeanBits) * known / 256; };
+  for (size_t i = 0; i < kUnknowns; ++i) {
+    for (size_t j = i; j < kUnknowns; ++j) {
+      e.products[i][j] = meanOf(moments.products[i][j], count, places(i) + places(j)) -
+                         common(gradient[i], gradient[j]);
+      e.products[j][i] = e.products[i][j];
+    }
+    e.right[i] =
+        -2 * (meanOf(moments.residuals[i], count, places(i)) - common(gradient[i], residual));
+  }
+  // A residual in 1/256 squared is 2^16 of a grey level squared.
+  const int64_t mean = residual >> kMeanBits;
+  e.variance = std::max(moments.rr / count - (mean * mean >> 8) * known / 256, kLeastVariance);
+  return e;
+}
+
+/// By how many bits a number is wider than `bits`.
+int excessBits(int64_t number, int bits) {
+  return std::max(0, static_cast<int>(std::bit_width(static_cast<uint64_t>(number))) - bits);
+}
+
+/// So much of the weight falls on a pixel, in the products' unit.
+int64_t perPixel(int64_t weight, int64_t variance, int64_t pixels) {
+  return 2 * weight * variance / std::max<int64_t>(pixels, 1);
+}
+
+Row solve(const Equations& e) {
+  Row step{};
+  for (int turn = 0; turn < kTurns; ++turn)
+    for (size_t i = 0; i < kUnknowns; i += 2) {
+      Step right{e.right[i], e.right[i + 1]};
+      for (size_t j = 0; j < kUnknowns; ++j) {
+        if (j / 2 == i / 2) continue;
+        right.x -= e.products[i][j] * step[j];
+        right.y -= e.products[i + 1][j] * step[j];
+      }
+      const Step result =
+          solveStep(e.products[i][i], e.products[i][i + 1], e.products[i + 1][i + 1], right);
+      const auto bounded = [](int64_t d) { return std::clamp<int64_t>(d, -kFine, kFine); };
+      step[i] = bounded(result.x);
+      step[i + 1] = bounded(result.y);
+    }
+  return step;
+}
+
+/// What enters the frame has no match in the previous one.
+bool isVisible(const MatchedCell& cell, Point d, Size size) {
+  const auto isInside = [](int first, int shift, int length) {
+    const int end = std::min(first + kCellSize, length);
+    return first * kFine >= shift && (end - 1) * kFine - shift <= (length - 1) * kFine;
+  };
+  return isInside(cell.x, d.x, size.width) && isInside(cell.y, d.y, size.height);
+}
+
+Moments collect(const FitRegion& region, const FitPlane& plane, const MotionFit& fit) {
+  Moments moments;
+  for (const MatchedPart& part : region.parts)
+    forCells(part, [&](const MatchedCell& cell) {
+      const Point offset = offsetOf(cell, region.centroid);
+      const Point d = displacementAt(fit, offset, plane.previous->reach());
+      if (!isVisible(cell, d, plane.current.size)) return;
+      addCell(sumFit(cell, plane.current, *plane.previous, d, region.limit), offset, moments);
+    });
+  return moments;
+}
+
+void addExpectations(const MotionFit& fit, const MotionPrior& prior, int64_t pixels, Equations& e) {
+  const int64_t weight = perPixel(prior.weight, e.variance, pixels);
+  e.products[0][0] += kFlat + weight;
+  e.products[1][1] += kFlat + weight;
+  e.right[0] += weight * (prior.at.x - fit.at.x);
+  e.right[1] += weight * (prior.at.y - fit.at.y);
+  const int64_t flatness = perPixel(kSlopeWeight, e.variance, pixels);
+  for (size_t i = 2; i < kUnknowns; ++i) {
+    e.products[i][i] += flatness;
+    e.right[i] -= flatness * fit.slopes[i - 2];
+  }
+}
+
+/// Of at most 30 bits, its shape kept.
+Information informationOf(const Equations& e, int64_t pixels) {
+  constexpr int kMostBits = 30;
+  const auto known = [&](int64_t product) {
+    return pixels * product / (kCorrelation * e.variance / 4);
+  };
+  const Information i{known(e.products[0][0]), known(e.products[0][1]), known(e.products[1][1])};
+  const int shift = excessBits(std::max(i.xx, i.yy), kMostBits);
+  return {i.xx >> shift, i.xy >> shift, i.yy >> shift};
+}
+
+}  // namespace
+
+Step solveStep(int64_t xx, int64_t xy, int64_t yy, Step right) {
+  const int shift = excessBits(std::max({xx, yy, std::abs(right.x), std::abs(right.y)}), 30);
+  const int64_t a = xx >> shift, b = xy >> shift, c = yy >> shift;
+  const int64_t u = right.x >> shift, v = right.y >> shift;
+  const int64_t determinant = a * c - b * b;
+  if (determinant <= 0) return {};
+  return {divideRounded(c * u - b * v, determinant), divideRounded(a * v - b * u, determinant)};
+}
+
+int64_t leastInformation(const Information& i) {
+  const int64_t sum = i.xx + i.yy, diff = i.xx - i.yy;
+  const auto root = static_cast<int64_t>(
+      integerSqrt(static_cast<uint64_t>(diff * diff) + 4 * static_cast<uint64_t>(i.xy * i.xy)));
+  return std::max<int64_t>(sum - root, 0) / 2;
+}
+
+MotionFit fitMotion(const FitRegion& region, const FitPlane& plane, const MotionFit& start,
+                    const MotionPrior& prior, int steps) {
+  MotionFit fit = start;
+  const int most = plane.previous->reach() * kFine;
+  const auto moved = [&](int at, int64_t by, int origin) {
+    return std::clamp(at + static_cast<int>(by), std::max(origin - kFine * 3 / 2, -most),
+                      std::min(origin + kFine * 3 / 2, most));
+  };
+  for (int i = 0; i < steps; ++i) {
+    const Moments moments = collect(region, plane, fit);
+    Equations equations = normalise(moments);
+    fit.pixels = static_cast<uint32_t>(moments.pixels);
+    fit.seen = static_cast<uint32_t>(moments.seen);
+    fit.misfit = moments.misfit / std::max<int64_t>(moments.seen, 1);
+    fit.information = informationOf(equations, moments.pixels);
+    addExpectations(fit, prior, moments.pixels, equations);
+    const Row step = solve(equations);
+    fit.at = {moved(fit.at.x, step[0], start.at.x), moved(fit.at.y, step[1], start.at.y)};
+    for (size_t s = 0; s < fit.slopes.size(); ++s)
+      fit.slopes[s] = std::clamp(fit.slopes[s] + static_cast<int>(step[s + 2]), -kFine, kFine);
+  }
+  return fit;
+}
+
+}  // namespace rg
