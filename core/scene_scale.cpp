@@ -12,6 +12,7 @@ namespace {
 
 constexpr int kLineBits = 16;
 constexpr int kLeastSamples = 10;    // Of all bands together, before anything is said.
+constexpr size_t kLeastThings = 4;   // Before they are said to be alike.
 constexpr size_t kLeastPerBand = 3;  // Before a band's median counts.
 
 /// The value below which half of the weight lies; the list is sorted by value here.
@@ -37,11 +38,11 @@ void SceneScale::reset(Size frame) {
   isKnown_ = isUniform_ = false;
 }
 
-void SceneScale::learn(int footPx, Extent size) {
+void SceneScale::learn(uint64_t id, int footPx, Extent size) {
   if (frame_.height <= 0 || size.height <= 0) return;
   const int row = std::clamp(footPx, 0, frame_.height - 1);
   Band& band = bands_[static_cast<size_t>(int64_t{row} * kBands / frame_.height)];
-  band.samples[band.seen % kSamples] = {row, size.width, size.height};
+  band.samples[band.seen % kSamples] = {id, row, size.width, size.height};
   // Counts on past the ring's size, but never back to "few".
   if (++band.seen == 1u << 30) band.seen = kSamples;
   refit();
@@ -120,17 +121,42 @@ void SceneScale::refit() {
   if (!isKnown_) return;
   height_ = fit(&Sample::height);
   width_ = fit(&Sample::width);
-  int alike = 0;
+  isUniform_ = areMostAlike();
+}
+
+bool SceneScale::isAsExpected(const Sample& sample) const {
+  const int64_t height = valueAt(height_, sample.foot), width = valueAt(width_, sample.foot);
+  return 4 * std::abs(sample.height - height) <= height &&
+         (sample.width == 0 || 2 * std::abs(sample.width - width) <= width);
+}
+
+/// By samples and by things: one thing that walks up and down is always like itself.
+bool SceneScale::areMostAlike() const {
+  struct Thing {
+    uint64_t id = 0;
+    int samples = 0, alike = 0;
+  };
+  std::array<Thing, kBands * kSamples> things;
+  size_t count = 0;
+  int samples = 0, alike = 0;
   for (const Band& band : bands_)
     for (int i = 0; i < band.count(); ++i) {
       const Sample& sample = band.samples[static_cast<size_t>(i)];
-      const int64_t expected = valueAt(height_, sample.foot);
-      const int64_t width = valueAt(width_, sample.foot);
-      const bool isAsWide =
-          sample.width == 0 || (2 * int64_t{sample.width} >= width && sample.width <= 2 * width);
-      alike += isAsWide && 4 * std::abs(sample.height - expected) <= expected;
+      const auto end = things.begin() + static_cast<std::ptrdiff_t>(count);
+      const auto known =
+          std::find_if(things.begin(), end, [&](const Thing& t) { return t.id == sample.id; });
+      if (known == end) things[count++].id = sample.id;
+      const bool isAlike = isAsExpected(sample);
+      ++known->samples;
+      known->alike += isAlike;
+      ++samples;
+      alike += isAlike;
     }
-  isUniform_ = 3 * alike >= 2 * samples;
+  const auto end = things.begin() + static_cast<std::ptrdiff_t>(count);
+  const auto alikeThings =
+      std::count_if(things.begin(), end, [](const Thing& t) { return 2 * t.alike >= t.samples; });
+  return count >= kLeastThings && 3 * alike >= 2 * samples &&
+         3 * static_cast<size_t>(alikeThings) >= 2 * count;
 }
 
 }  // namespace rg

@@ -21,12 +21,12 @@ struct Extent {
 class SceneScale {
  public:
   void reset(Size frame);
-  /// Something with its feet at row `footPx` was seen whole. Width 0: of unknown width.
-  void learn(int footPx, Extent size);
+  /// Thing `id` was seen whole with its feet at row `footPx`. Width 0: of unknown width.
+  void learn(uint64_t id, int footPx, Extent size);
 
   /// Enough was seen to say how large things are.
   [[nodiscard]] bool isKnown() const { return isKnown_; }
-  /// Most of what was seen has about the expected size: what is twice as wide is two things.
+  /// Of several things seen most have about the expected size: what is twice as wide is two things.
   [[nodiscard]] bool isUniform() const { return isUniform_; }
   /// What to expect at a row; {} unless isKnown.
   [[nodiscard]] Extent at(int footPx) const;
@@ -35,6 +35,7 @@ class SceneScale {
   static constexpr int kBands = 16;
   static constexpr int kSamples = 24;  ///< The latest of each band.
   struct Sample {
+    uint64_t id;
     int32_t foot, width, height;
   };
   struct Band {
@@ -49,6 +50,8 @@ class SceneScale {
   [[nodiscard]] Line fit(int32_t Sample::*value) const;
   [[nodiscard]] int64_t valueAt(const Line& line, int footPx) const;
   void refit();
+  [[nodiscard]] bool isAsExpected(const Sample& sample) const;
+  [[nodiscard]] bool areMostAlike() const;
 
   Size frame_;
   std::array<Band, kBands> bands_;

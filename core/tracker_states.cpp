@@ -83,7 +83,8 @@ void Tracker::learnScale(const Evidence& e) {
     track.learntX = track.x;
     track.learntFoot = track.foot;
     const int unit = e.stepPx * kUnit;
-    scale_.learn(box.bottom() * e.stepPx, {isAlone ? box.width * unit : 0, box.height * unit});
+    scale_.learn(track.id, box.bottom() * e.stepPx,
+                 {isAlone ? box.width * unit : 0, box.height * unit});
   }
 }
 

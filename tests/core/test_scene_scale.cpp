@@ -15,19 +15,24 @@ Extent extent(int widthPx, int heightPx) {
   return {widthPx * kPx, heightPx * kPx};
 }
 
+/// Samples come from ten things in turn.
+uint64_t thing(int sample) {
+  return static_cast<uint64_t>((sample + 100) % 10);
+}
+
 TEST(SceneScale, SaysNothingBeforeItHasSeenEnough) {
   SceneScale scale;
   scale.reset(kFrame);
   EXPECT_FALSE(scale.isKnown());
   EXPECT_EQ(scale.at(300).height, 0);
-  for (int i = 0; i < 5; ++i) scale.learn(300 + i, extent(30, 80));
+  for (int i = 0; i < 5; ++i) scale.learn(thing(i), 300 + i, extent(30, 80));
   EXPECT_FALSE(scale.isKnown());
 }
 
 TEST(SceneScale, OneSizeInOneBandIsThatSizeEverywhere) {
   SceneScale scale;
   scale.reset(kFrame);
-  for (int i = 0; i < 20; ++i) scale.learn(300, extent(30, 80));
+  for (int i = 0; i < 20; ++i) scale.learn(thing(i), 300, extent(30, 80));
   ASSERT_TRUE(scale.isKnown());
   EXPECT_TRUE(scale.isUniform());
   for (const int row : {0, 300, 575}) {
@@ -45,8 +50,9 @@ SceneScale lineWithOutliers(int wrongOfTen) {
   for (int i = 0; i < 300; ++i) {
     const int foot = row(random);
     const int height = foot / 4 + 10 + noise(random);
-    scale.learn(foot, tenth(random) < wrongOfTen ? extent(any(random), any(random))
-                                                 : extent(height * 2 / 5, height));
+    scale.learn(thing(i), foot,
+                tenth(random) < wrongOfTen ? extent(any(random), any(random))
+                                           : extent(height * 2 / 5, height));
   }
   return scale;
 }
@@ -66,23 +72,38 @@ TEST(SceneScale, ATenthOfNonsenseChangesLittle) {
 TEST(SceneScale, ThingsOfAllSizesAreNotUniform) {
   SceneScale scale;
   scale.reset(kFrame);
-  for (int i = 0; i < 40; ++i) scale.learn(300, extent(30, i % 2 == 0 ? 40 : 100));
+  for (int i = 0; i < 40; ++i) scale.learn(thing(i), 300, extent(30, i % 2 == 0 ? 40 : 100));
   ASSERT_TRUE(scale.isKnown());
+  EXPECT_FALSE(scale.isUniform());
+}
+
+TEST(SceneScale, ThingsOfOneHeightAndOfAllWidthsAreNotUniform) {
+  SceneScale scale;
+  scale.reset(kFrame);
+  for (int i = 0; i < 40; ++i) scale.learn(thing(i), 300, extent(i % 2 == 0 ? 30 : 140, 80));
+  EXPECT_FALSE(scale.isUniform());
+}
+
+TEST(SceneScale, OneThingAloneSaysNothingOfOthers) {
+  SceneScale scale;
+  scale.reset(kFrame);
+  for (int i = 0; i < 40; ++i) scale.learn(7, 300, extent(30, 80));
+  EXPECT_TRUE(scale.isKnown());
   EXPECT_FALSE(scale.isUniform());
 }
 
 TEST(SceneScale, AnUnknownWidthLeavesTheWidthAlone) {
   SceneScale scale;
   scale.reset(kFrame);
-  for (int i = 0; i < 12; ++i) scale.learn(300, extent(30, 80));
-  for (int i = 0; i < 8; ++i) scale.learn(300, extent(0, 80));
+  for (int i = 0; i < 12; ++i) scale.learn(thing(i), 300, extent(30, 80));
+  for (int i = 0; i < 8; ++i) scale.learn(thing(i), 300, extent(0, 80));
   EXPECT_EQ(scale.at(300).width, 30 * kPx);
 }
 
 TEST(SceneScale, ExtremeRowsAndSizesAreFine) {
   SceneScale scale;
   scale.reset({1, 1});
-  for (int i = -50; i < 50; ++i) scale.learn(i, extent(1 + (i & 3), 1 + (i & 7)));
+  for (int i = -50; i < 50; ++i) scale.learn(thing(i), i, extent(1 + (i & 3), 1 + (i & 7)));
   EXPECT_GT(scale.at(-1000).height, 0);
   EXPECT_GT(scale.at(100000).height, 0);
 }
