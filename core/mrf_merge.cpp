@@ -264,6 +264,8 @@ void describeGroups(const Motion& motion, std::span<const uint32_t> groupOf,
     group.momentX += weight * m.dx;  // 2^32 px · 2^8 · 2^11 (64 px in 1/16) fit in 64 bits.
     group.momentY += weight * m.dy;
     group.weight += weight;
+    group.sumX += int64_t{regions[i].areaPx} * regions[i].centroidX;
+    group.sumY += int64_t{regions[i].areaPx} * regions[i].centroidY;
   }
   for (Group& group : groups) {
     if (group.weight == 0) continue;

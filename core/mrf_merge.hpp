@@ -73,6 +73,8 @@ struct Group {
   int64_t momentX = 0;       ///< Sum of area x reliability x motion, of which dx is the mean.
   int64_t momentY = 0;
   int64_t weight = 0;  ///< Sum of area x reliability.
+  int64_t sumX = 0;    ///< Of the pixels' places, in 1/256 px.
+  int64_t sumY = 0;
 };
 
 /// What each of the graph's arcs adds to U. predicted[i]: what object region i is expected to

@@ -214,15 +214,20 @@ void CpuObjectStage::describe(const Graph& graph, bool hasTime, Objects& objects
     object.state = track.state;
     object.box = track.box();
     object.areaPx = static_cast<uint32_t>(sum.count);
-    object.centroidX = track.x;
-    object.centroidY = track.foot - track.size.height / 2;
+    object.centroidX = track.x + track.centreX;
+    object.centroidY = track.foot - track.size.height / 2 + track.centreY;
     object.colour = track.colour;
     if (sum.count > 0) {
       const auto mean = [&](uint64_t total) {
         return static_cast<uint8_t>((total + sum.count / 2) / sum.count);
       };
-      object.centroidX = static_cast<int32_t>((sum.x * kPositionUnit + sum.count / 2) / sum.count);
-      object.centroidY = static_cast<int32_t>((sum.y * kPositionUnit + sum.count / 2) / sum.count);
+      // Of a part that is seen the mean would be that part's.
+      if (track.isWhole || track.centreSamples == 0) {
+        object.centroidX =
+            static_cast<int32_t>((sum.x * kPositionUnit + sum.count / 2) / sum.count);
+        object.centroidY =
+            static_cast<int32_t>((sum.y * kPositionUnit + sum.count / 2) / sum.count);
+      }
       object.colour = {mean(sum.red), mean(sum.green), mean(sum.blue)};
     }
     tracker_.remember(i, object.colour);

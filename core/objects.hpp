@@ -40,7 +40,7 @@ struct Object {
   ObjectState state = ObjectState::New;
   Box box;                ///< Full extent, hidden parts included; may leave the frame.
   uint32_t areaPx = 0;    ///< Pixels that belong to it in this frame; 0 while it is hidden.
-  int32_t centroidX = 0;  ///< 1/16 px.
+  int32_t centroidX = 0;  ///< Of all of it, hidden parts included, in 1/16 px.
   int32_t centroidY = 0;
   int32_t speedX = 0;  ///< Over the ground, in 1/16 px per second; 0 unless hasSpeed.
   int32_t speedY = 0;

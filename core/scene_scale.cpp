@@ -127,7 +127,7 @@ void SceneScale::refit() {
 bool SceneScale::isAsExpected(const Sample& sample) const {
   const int64_t height = valueAt(height_, sample.foot), width = valueAt(width_, sample.foot);
   return 4 * std::abs(sample.height - height) <= height &&
-         (sample.width == 0 || 2 * std::abs(sample.width - width) <= width);
+         (sample.width == 0 || (sample.width <= 2 * width && width <= 2 * sample.width));
 }
 
 /// By samples and by things: one thing that walks up and down is always like itself.

@@ -13,6 +13,8 @@ namespace {
 constexpr int64_t kSecondUs = 1'000'000;
 constexpr int kUnit = kPositionUnit;
 constexpr uint32_t kTrustedSamples = 8;
+constexpr uint32_t kSteadySamples = 12;
+constexpr int64_t kCentreSamples = 31;
 
 int32_t toInt(int64_t value) {
   return static_cast<int32_t>(std::clamp<int64_t>(value, INT32_MIN / 4, INT32_MAX / 4));
@@ -23,10 +25,11 @@ struct Gains {
   int position, speed;
 };
 
-Gains gainsOf(const Track& track, bool isWhole) {
+Gains gainsOf(const Track& track, const Sighting& s) {
   if (track.hits <= 2) return {16, 14};
   if (track.hits <= 4) return {14, 8};
-  return isWhole ? Gains{11, 4} : Gains{8, 2};
+  if (s.isWhole) return {11, 4};
+  return s.isSole ? Gains{8, 1} : Gains{8, 2};
 }
 
 /// How much of what is usually foreground in its box a track owns, in 1/256.
@@ -42,7 +45,35 @@ bool isLike(const Box& box, const Extent& size) {
          2 * width >= size.width && 2 * width <= 3 * int64_t{size.width};
 }
 
+/// Whether a box lacks an end of what is expected there.
+bool isCutAtOneEnd(const Track& track, const Box& box) {
+  const int64_t width = track.size.width;
+  const int64_t atLeft = std::abs(int64_t{box.x} * kUnit - (track.x - width / 2));
+  const int64_t atRight = std::abs(int64_t{box.right()} * kUnit - (track.x + width / 2));
+  return 6 * int64_t{box.width} * kUnit < 5 * width &&
+         4 * std::min(atLeft, atRight) <= std::max(atLeft, atRight);
+}
+
 }  // namespace
+
+Place placeOfPart(const Track& track, const Box& part, Size frame) {
+  constexpr int64_t kUnseen = INT32_MAX;  // At the frame's border nothing says where it ends.
+  const auto offset = [](int64_t low, int64_t high, int64_t expectedLow, int64_t expectedHigh) {
+    const int64_t atLow = low - expectedLow, atHigh = high - expectedHigh;
+    const int64_t nearest = std::abs(atLow) <= std::abs(atHigh) ? atLow : atHigh;
+    return low == kUnseen && high == kUnseen ? 0 : nearest;
+  };
+  const int64_t left = int64_t{part.x} * kUnit, right = int64_t{part.right()} * kUnit;
+  const int64_t top = int64_t{part.y} * kUnit, bottom = int64_t{part.bottom()} * kUnit;
+  const int64_t expectedLeft = track.x - track.size.width / 2;
+  const int64_t expectedTop = track.foot - track.size.height;
+  return {
+      track.x + offset(part.x > 0 ? left : kUnseen, part.right() < frame.width ? right : kUnseen,
+                       expectedLeft, expectedLeft + track.size.width),
+      track.foot + offset(part.y > 0 ? top : kUnseen,
+                          part.bottom() < frame.height ? bottom : kUnseen, expectedTop,
+                          track.foot)};
+}
 
 Box Track::box() const {
   const auto px = [](int64_t v) { return static_cast<int>(divideRounded(v, kUnit)); };
@@ -199,7 +230,10 @@ void Tracker::sight(const Evidence& e) {
         isLike(s.box, track.size) ||
         (isSole && (!isSizeKnown(track) || isLike(s.box, scale_.at(s.box.bottom()))));
     s.isSole = isSole;
-    s.isWhole = !s.box.isEmpty() && isUsual && 5 * s.othersCells < s.boxCells;
+    // People's strides, of which a uniform scene is full, are no reason to distrust a box.
+    s.isCutOff = isSole && !scale_.isUniform() && track.sizeSamples >= kTrustedSamples &&
+                 isCutAtOneEnd(track, s.box);
+    s.isWhole = !s.box.isEmpty() && isUsual && !s.isCutOff && 5 * s.othersCells < s.boxCells;
   }
 }
 
@@ -208,41 +242,85 @@ bool Tracker::isSizeKnown(const Track& track) const {
   return scale_.isUniform() || track.sizeSamples >= kTrustedSamples;
 }
 
+/// Where a track is that is seen whole: by the mean of its pixels, which tells fractions of a pixel
+/// that the box does not, and follows no single edge.
+Place Tracker::placeOfWhole(Track& track, const Sighting& s) const {
+  const int64_t left = int64_t{s.box.x} * kUnit, right = int64_t{s.box.right()} * kUnit;
+  const int64_t top = int64_t{s.box.y} * kUnit, bottom = int64_t{s.box.bottom()} * kUnit;
+  const Extent size =
+      isSizeKnown(track) ? track.size : Extent{toInt(right - left), toInt(bottom - top)};
+  const bool isCut = s.box.x <= 0 || s.box.y <= 0 || s.box.right() >= frame_.width ||
+                     s.box.bottom() >= frame_.height;
+  Place place{(left + right) / 2, (top + bottom + size.height) / 2};
+  if (!isCut && s.areaPx > 0) {
+    const auto area = static_cast<int64_t>(s.areaPx);
+    const int64_t meanX = divideRounded(s.sumX, 16 * area),
+                  meanY = divideRounded(s.sumY, 16 * area);
+    const auto learn = [&](int32_t& centre, int64_t seen) {
+      const int64_t known = std::min<int64_t>(track.centreSamples, kCentreSamples);
+      centre = toInt(divideRounded(centre * known + seen, known + 1));
+    };
+    learn(track.centreX, meanX - (left + right) / 2);
+    learn(track.centreY, meanY - (top + bottom) / 2);
+    ++track.centreSamples;
+    return {meanX - track.centreX, meanY - track.centreY + size.height / 2};
+  }
+  if (!isSizeKnown(track)) return place;
+  if (s.box.x <= 0 && s.box.right() < frame_.width) place.x = right - size.width / 2;
+  if (s.box.x > 0 && s.box.right() >= frame_.width) place.x = left + size.width / 2;
+  if (s.box.bottom() >= frame_.height) place.foot = top + size.height;
+  if (s.box.y <= 0) place.foot = bottom;
+  return place;
+}
+
+/// Where a track is seen. Of what the scene hides in part the end that is nearest to where it was
+/// expected is taken to be its own, the other one to be cut off.
+Place Tracker::placeOf(size_t index) {
+  Track& track = tracks_[index];
+  const Sighting& s = sightings_[index];
+  if (s.isWhole) return placeOfWhole(track, s);
+  if (!s.box.isEmpty() && s.isSole && s.isCutOff) return placeOfPart(track, s.box, frame_);
+  const FitTask& task = tasks_[static_cast<size_t>(s.task)];
+  return {track.x + int64_t{task.fitted.x - task.expected.x} * stepPx_ * kUnit,
+          track.foot + int64_t{task.fitted.y - task.expected.y} * stepPx_ * kUnit};
+}
+
+/// Nobody sees it: it goes on as it did for a while, not as in the last moment.
+void Tracker::miss(Track& track, int64_t stepNs) const {
+  if (track.unseenNs == 0 && track.centreSamples >= kSteadySamples && !isCovered(track)) {
+    const auto isNear = [](int32_t speed, int32_t steady, int32_t size) {
+      return std::abs(speed - steady) <= std::max(std::abs(steady) / 2, size / 2);
+    };
+    if (isNear(track.speedX, track.steadyX, track.size.width) &&
+        isNear(track.speedY, track.steadyY, track.size.height)) {
+      track.speedX = track.steadyX;
+      track.speedY = track.steadyY;
+    }
+  }
+  track.unseenNs += stepNs;
+}
+
 /// Moves a track to where it was seen.
 void Tracker::correct(size_t index, int64_t stepNs) {
   Track& track = tracks_[index];
   const Sighting& s = sightings_[index];
   const bool wasSeen = track.unseenNs == 0;
   track.isSeen = s.task >= 0 && s.cells > 0 && supportOf(track, s) >= (wasSeen ? 77u : 128u);
-  if (!track.isSeen) {
-    track.unseenNs += stepNs;
-    return;
-  }
-  const FitTask& task = tasks_[static_cast<size_t>(s.task)];
-  int64_t x = track.x, foot = track.foot;
-  if (s.isWhole && !isSizeKnown(track)) {
-    x = (2 * int64_t{s.box.x} + s.box.width) * kUnit / 2;
-    foot = int64_t{s.box.bottom()} * kUnit;
-  } else if (s.isWhole) {
-    const int64_t left = int64_t{s.box.x} * kUnit, right = int64_t{s.box.right()} * kUnit;
-    const int64_t top = int64_t{s.box.y} * kUnit, bottom = int64_t{s.box.bottom()} * kUnit;
-    x = (left + right) / 2;
-    if (s.box.x <= 0 && s.box.right() < frame_.width) x = right - track.size.width / 2;
-    if (s.box.x > 0 && s.box.right() >= frame_.width) x = left + track.size.width / 2;
-    foot = (top + bottom + track.size.height) / 2;
-    if (s.box.bottom() >= frame_.height) foot = top + track.size.height;
-    if (s.box.y <= 0) foot = bottom;
-  } else {
-    x += int64_t{task.fitted.x - task.expected.x} * stepPx_ * kUnit;
-    foot += int64_t{task.fitted.y - task.expected.y} * stepPx_ * kUnit;
-  }
-  const Gains gains = gainsOf(track, s.isWhole);
+  track.isWhole = track.isSeen && s.isWhole;
+  if (!track.isSeen) return miss(track, stepNs);
+  const Place place = placeOf(index);
+  const Gains gains = gainsOf(track, s);
   const int64_t sinceUs = std::max<int64_t>((track.unseenNs + stepNs) / 1000, 1000);
-  const int64_t offX = x - track.x, offFoot = foot - track.foot;
+  const int64_t offX = place.x - track.x, offFoot = place.foot - track.foot;
   track.x = toInt(track.x + offX * gains.position / 16);
   track.foot = toInt(track.foot + offFoot * gains.position / 16);
   track.speedX = toInt(track.speedX + offX * gains.speed * kSecondUs / 16 / sinceUs);
   track.speedY = toInt(track.speedY + offFoot * gains.speed * kSecondUs / 16 / sinceUs);
+  if (s.isWhole) {
+    const int32_t share = static_cast<int32_t>(std::clamp(track.centreSamples, 1u, kSteadySamples));
+    track.steadyX += (track.speedX - track.steadyX) / share;
+    track.steadyY += (track.speedY - track.steadyY) / share;
+  }
   track.unseenNs = 0;
   ++track.hits;
   learnLook(index);

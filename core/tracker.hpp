@@ -42,6 +42,10 @@ struct Track {
   uint32_t hits = 0;                    ///< Frames in which it was seen.
   uint32_t sizeSamples = 0;             ///< Frames in which all of it was seen.
   int32_t learntX = 0, learntFoot = 0;  ///< Where the scene's scale last learnt from it.
+  int32_t centreX = 0, centreY = 0;     ///< From its box's middle to the mean of its pixels.
+  uint32_t centreSamples = 0;           ///< Frames from which that was learnt.
+  int32_t steadyX = 0, steadyY = 0;     ///< Its speed over the last half second or so.
+  bool isWhole = false;                 ///< All of it is seen in this frame.
   uint16_t fill = 150;                  ///< Share of its box that is foreground, in 1/256.
   bool isSeen = false;                  ///< In this frame.
   uint64_t company = 0;                 ///< Smallest id of those that it shares a blob with.
@@ -68,16 +72,28 @@ struct TrackerParams {
 
 /// What the fit says of a track in this frame.
 struct Sighting {
-  int task = -1;             ///< −1: it was not looked for.
-  uint32_t cells = 0;        ///< That it owns.
-  uint32_t boxCells = 0;     ///< Of its fitted box within the frame.
-  uint32_t othersCells = 0;  ///< Of its fitted box that other tracks own.
-  bool isParted = false;     ///< Other blobs beside its own seem to be parts of it.
-  bool isSole = false;       ///< Nobody else is in its blob.
-  bool isWhole = false;      ///< `box` shows all of it.
-  Box box;                   ///< Pixels, around the groups that it owns.
+  int task = -1;               ///< −1: it was not looked for.
+  uint32_t cells = 0;          ///< That it owns.
+  uint32_t boxCells = 0;       ///< Of its fitted box within the frame.
+  uint32_t othersCells = 0;    ///< Of its fitted box that other tracks own.
+  bool isParted = false;       ///< Other blobs beside its own seem to be parts of it.
+  bool isCutOff = false;       ///< `box` lacks an end of what is expected there.
+  bool isSole = false;         ///< Nobody else is in its blob.
+  bool isWhole = false;        ///< `box` shows all of it.
+  Box box;                     ///< Pixels, around the groups that it owns.
+  uint64_t areaPx = 0;         ///< Of those groups.
+  int64_t sumX = 0, sumY = 0;  ///< Of the places of their pixels, in 1/256 px.
   LookCounts look;
 };
+
+/// Middle of a box's lower edge, in 1/16 px.
+struct Place {
+  int64_t x = 0, foot = 0;
+};
+
+/// Where a track is of which `part` is seen, in pixels: as near to its expected place as the part's
+/// edges inside the frame allow.
+[[nodiscard]] Place placeOfPart(const Track& track, const Box& part, Size frame);
 
 /// Foreground that no track explains and that is large enough to be something.
 struct Newcomer {
@@ -150,13 +166,16 @@ class Tracker {
   void rejoin();
   [[nodiscard]] int64_t rejoinCost(const Track& track, const Newcomer& newcomer) const;
   [[nodiscard]] int likeness(const Track& track, const Newcomer& newcomer) const;
-  static void comeBack(Track& track, const Newcomer& newcomer);
+  void comeBack(Track& track, const Newcomer& newcomer) const;
   void meet();
   [[nodiscard]] Track* find(uint64_t id);
   void learnLook(size_t index);
   void judgeIdentities();
   void exchange(Track& a, Track& b);
   void correct(size_t index, int64_t stepNs);
+  [[nodiscard]] Place placeOf(size_t index);
+  [[nodiscard]] Place placeOfWhole(Track& track, const Sighting& sighting) const;
+  void miss(Track& track, int64_t stepNs) const;
   void learnSize(size_t index, int64_t stepNs, const Evidence& evidence);
   [[nodiscard]] uint64_t parentOf(const Newcomer& newcomer) const;
   void begin(const Newcomer& newcomer);

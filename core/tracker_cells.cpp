@@ -138,6 +138,9 @@ void Tracker::giveGroups(const Evidence& e, std::span<const Group> groups) {
     if (5 * majorities_[g].votes < 3 * e.cellsOf[g] || majorities_[g].votes == 0) continue;
     Sighting& s = sightings_[majorities_[g].value - 1u];
     s.box = unite(s.box, groups[g].box);
+    s.areaPx += groups[g].areaPx;
+    s.sumX += groups[g].sumX;
+    s.sumY += groups[g].sumY;
   }
 }
 

@@ -228,9 +228,14 @@ int Tracker::likeness(const Track& track, const Newcomer& newcomer) const {
   return most;
 }
 
-void Tracker::comeBack(Track& track, const Newcomer& newcomer) {
-  const int64_t x = (2 * int64_t{newcomer.box.x} + newcomer.box.width) * kUnit / 2;
-  const int64_t foot = int64_t{newcomer.box.bottom()} * kUnit;
+void Tracker::comeBack(Track& track, const Newcomer& newcomer) const {
+  // What comes out from behind something shows a part first.
+  const bool isPart = newcomer.parent == 0 && track.centreSamples > 0 &&
+                      5 * newcomer.box.width * kUnit < 4 * track.size.width;
+  const Place place = isPart ? placeOfPart(track, newcomer.box, frame_)
+                             : Place{(2 * int64_t{newcomer.box.x} + newcomer.box.width) * kUnit / 2,
+                                     int64_t{newcomer.box.bottom()} * kUnit};
+  const int64_t x = place.x, foot = place.foot;
   const int64_t sinceUs = std::max<int64_t>(track.unseenNs / 1000, 1000);
   if (track.hits <= 2) {
     track.speedX += static_cast<int32_t>((x - track.x) * 1'000'000 / sinceUs);

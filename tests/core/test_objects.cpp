@@ -388,6 +388,26 @@ TEST(Objects, AGapIsBridgedByPrediction) {
   EXPECT_EQ(toldOf(*objects)[0]->id, 1u);
 }
 
+TEST(Objects, WhatPassesBehindAPillarGoesOnAsItDid) {
+  Scene scene;
+  constexpr Box kPillar{140, 0, 100, 240};
+  std::shared_ptr<const Objects> objects;
+  for (int i = 0; i < 75; ++i) {
+    const Box body{4 * i - 10, 100, 24, 60};
+    const int first = body.x >= kPillar.x ? std::max(body.x, kPillar.right()) : body.x;
+    const int last = body.x < kPillar.x ? std::min(body.right(), kPillar.x) : body.right();
+    std::vector<Body> seen;
+    if (first < last) seen.push_back({{first, body.y, last - first, body.height}, kRed});
+    objects = scene.show(seen);
+    if (i < 20 || body.right() > 320) continue;
+    ASSERT_EQ(objects->objects.size(), 1u) << i;
+    EXPECT_EQ(objects->objects[0].id, 1u) << i;
+    EXPECT_NEAR(objects->objects[0].centroidX, (2 * body.x + 23) * kPositionUnit / 2,
+                3 * kPositionUnit)
+        << i;
+  }
+}
+
 TEST(Objects, WithoutTimeThereIsNoSpeed) {
   Scene scene;
   scene.forgetTime();
