@@ -13,15 +13,6 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-namespace rg::plain {
-
-/// The columns begin … end − 1 of smoothRow.
-void smoothColumns(const RowsAround& in, int begin, int end, uint8_t* out);
-/// Unsets the bits beyond the row's end.
-void clearBeyond(int width, const VerdictRow& out);
-
-}  // namespace rg::plain
-
 HWY_BEFORE_NAMESPACE();
 namespace rg::HWY_NAMESPACE {
 #if HWY_TARGET == HWY_SCALAR
@@ -166,18 +157,33 @@ V quarter(V a) {
   return hn::Add(hn::ShiftRight<2>(a), rest);
 }
 
-void followNoiseRow(const ModelRow& row, const NoiseRow& out) {
+/// Distances to the nearest sample, one sample after the other: each is a stream of its own.
+void findNearest(const ModelRow& row, int begin, int end, uint8_t* nearest) {
   const auto lanes = static_cast<int>(hn::Lanes(kBytes));
-  for (int x = 0; x < row.width; x += lanes) {
-    const std::array<V, 3> pixels = loadPixels(row, x);
-    V nearest = hn::Set(kBytes, 31);
-    for (int sample = 0; sample < row.sampleCount; ++sample)
-      nearest = hn::Min(nearest, distance(pixels, row, sample, x));
-    const V seen = hn::ShiftLeft<3>(nearest), before = hn::LoadU(kBytes, out.noise + x);
-    const V less = hn::Sub(before, quarter(hn::SaturatedSub(before, seen)));
-    const V after = hn::Add(less, quarter(hn::SaturatedSub(seen, before)));
-    const auto kept = hn::LoadMaskBits(kBytes, reinterpret_cast<const uint8_t*>(out.kept) + x / 8);
-    hn::StoreU(hn::IfThenElse(kept, before, after), kBytes, out.noise + x);
+  for (int sample = 0; sample < row.sampleCount; ++sample)
+    for (int x = begin; x < end; x += lanes) {
+      const V d = distance(loadPixels(row, x), row, sample, x);
+      uint8_t* to = nearest + (x - begin);
+      hn::StoreU(sample == 0 ? d : hn::Min(d, hn::LoadU(kBytes, to)), kBytes, to);
+    }
+}
+
+void followNoiseRow(const ModelRow& row, const NoiseRow& out) {
+  constexpr int kChunk = 2048;  // Stays in the first cache.
+  const auto lanes = static_cast<int>(hn::Lanes(kBytes));
+  uint8_t nearest[kChunk];
+  for (int begin = 0; begin < row.width; begin += kChunk) {
+    const int end = std::min(row.width, begin + kChunk);
+    findNearest(row, begin, end, nearest);
+    for (int x = begin; x < end; x += lanes) {
+      const V near = hn::Min(hn::LoadU(kBytes, nearest + (x - begin)), hn::Set(kBytes, 31));
+      const V seen = hn::ShiftLeft<3>(near), before = hn::LoadU(kBytes, out.noise + x);
+      const V less = hn::Sub(before, quarter(hn::SaturatedSub(before, seen)));
+      const V after = hn::Add(less, quarter(hn::SaturatedSub(seen, before)));
+      const auto kept =
+          hn::LoadMaskBits(kBytes, reinterpret_cast<const uint8_t*>(out.kept) + x / 8);
+      hn::StoreU(hn::IfThenElse(kept, before, after), kBytes, out.noise + x);
+    }
   }
 }
 

@@ -49,6 +49,11 @@ namespace plain {
 void smoothRow(const RowsAround& in, uint8_t* out);
 void judgeRow(const ModelRow& row, const RadiusRow& radius, const VerdictRow& out);
 void followNoiseRow(const ModelRow& row, const NoiseRow& noise);
+
+/// The columns begin … end − 1 of smoothRow.
+void smoothColumns(const RowsAround& in, int begin, int end, uint8_t* out);
+/// Unsets the bits beyond the row's end.
+void clearBeyond(int width, const VerdictRow& out);
 }  // namespace plain
 
 namespace simd {
