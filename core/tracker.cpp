@@ -86,7 +86,9 @@ void Tracker::reset(bool isNewScene) {
     if (track.isConfirmed) ended_.push_back(track.id);
   tracks_.clear();
   encounters_.clear();
-  if (isNewScene) scale_.reset({});
+  if (!isNewScene) return;
+  scale_.reset({});
+  clutter_.reset();
 }
 
 /// In 1/16 px.

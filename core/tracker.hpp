@@ -12,6 +12,7 @@
 #include "core/appearance.hpp"
 #include "core/assignment.hpp"
 #include "core/box_fit.hpp"
+#include "core/clutter.hpp"
 #include "core/evidence.hpp"
 #include "core/objects.hpp"
 #include "core/scene_scale.hpp"
@@ -194,6 +195,7 @@ class Tracker {
   std::vector<Event> events_;
   std::vector<uint64_t> ended_;  ///< By a reset, not told yet.
   SceneScale scale_;
+  Clutter clutter_;
   uint64_t nextId_ = 1;
   Size frame_;
   int stepPx_ = 1;

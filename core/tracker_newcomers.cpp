@@ -82,6 +82,7 @@ void Tracker::giveFragments(const Evidence& e) {
   trackOfNewcomer_.assign(newcomers_.size(), -1);
   for (size_t n = 0; n < newcomers_.size(); ++n) {
     Newcomer& newcomer = newcomers_[n];
+    if (int64_t{newcomer.cells} * e.stepPx * e.stepPx < clutter_.leastPx()) continue;
     for (size_t t = 0; t < tracks_.size() && newcomer.cells > 0; ++t) {
       if (blobOf_[t] == 0) continue;
       const Piece& blob = blobs_[blobOf_[t] - 1];
@@ -143,6 +144,7 @@ void Tracker::dropSmall(const Evidence& e, const TrackerParams& params) {
   const auto isSmall = [&](const Newcomer& n) {
     const int64_t areaPx = n.cells * cellPx;
     if (params.minAreaPx > 0) return areaPx < params.minAreaPx;
+    if (areaPx < clutter_.leastPx()) return true;
     if (!scale_.isKnown()) {
       const auto parent = std::find_if(tracks_.begin(), tracks_.end(),
                                        [&](const Track& t) { return t.id == n.parent; });

@@ -14,6 +14,7 @@ constexpr int64_t kFlickerNs = 250'000'000;    // A new track that is unseen for
 constexpr int64_t kDoubleNs = 500'000'000;     // One body for so long, two tracks are one.
 constexpr int64_t kOtherSizeNs = 500'000'000;  // Of another size for so long, it has changed.
 constexpr int64_t kMissNs = 400'000'000;       // Unseen for longer without a reason, it is lost.
+constexpr int64_t kClutterNs = 500'000'000;    // What was there for a shorter time may be clutter.
 // A new thing is trusted once it has moved; what creeps more slowly than its place in this time is
 // the shape of something that left, which the background takes back from its borders.
 constexpr int64_t kCreepNs = 2'000'000'000;
@@ -203,6 +204,7 @@ void Tracker::tellNew(const Track& track) {
 
 /// States of all tracks; ends those that are gone and says so.
 void Tracker::settle(int64_t stepNs, const TrackerParams& params) {
+  clutter_.age(stepNs);
   for (const uint64_t id : ended_) events_.push_back({EventKind::ObjectEnd, {id}});
   ended_.clear();
   trackIndex_.assign(tracks_.size(), 0);
@@ -220,6 +222,8 @@ void Tracker::settle(int64_t stepNs, const TrackerParams& params) {
     if (!wasConfirmed && track.isConfirmed) tellNew(track);
     if (isOver) {
       if (track.isConfirmed) events_.push_back({EventKind::ObjectEnd, {track.id}});
+      if (!track.isOver && track.seenNs < kClutterNs)
+        clutter_.learn(intersect(box, boundsOf(frame_)).area() * track.fill / 256);
       continue;
     }
     trackIndex_[i] = static_cast<uint16_t>(kept + 1);

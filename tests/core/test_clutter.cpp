@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "core/clutter.hpp"
+
+#include <gtest/gtest.h>
+
+namespace rg {
+namespace {
+
+constexpr int64_t kStepNs = 40'000'000;
+
+TEST(Clutter, AFewThingsThatVanishAreNoClutter) {
+  Clutter clutter;
+  for (int i = 0; i < 8; ++i) clutter.learn(100);
+  EXPECT_EQ(clutter.leastPx(), 0);
+}
+
+TEST(Clutter, ObjectsAreLargerThanWhatComesAndGoesAllTheTime) {
+  Clutter clutter;
+  for (int i = 0; i < 200; ++i) {
+    clutter.learn(100);
+    if (i % 100 == 0) clutter.learn(5000);  // A large thing now and then is no rule.
+    clutter.age(kStepNs);
+  }
+  EXPECT_EQ(clutter.leastPx(), 128);
+}
+
+TEST(Clutter, IsForgotten) {
+  Clutter clutter;
+  for (int i = 0; i < 1000; ++i) clutter.learn(100);
+  clutter.age(INT64_MAX);
+  EXPECT_EQ(clutter.leastPx(), 0);
+}
+
+TEST(Clutter, TakesAnyArea) {
+  Clutter clutter;
+  for (int i = 0; i < 20; ++i) {
+    clutter.learn(-1);
+    clutter.learn(0);
+  }
+  EXPECT_EQ(clutter.leastPx(), 0);
+  for (int i = 0; i < 20; ++i) clutter.learn(INT64_MAX);
+  EXPECT_EQ(clutter.leastPx(), int64_t{1} << 31);
+}
+
+}  // namespace
+}  // namespace rg
