@@ -31,9 +31,15 @@ size_t bytesInUse() {
   return heap.uordblks + heap.hblkhd;
 }
 
+/// 0: all that the machine has.
+void allowTargets(int64_t targets) {
+  hwy::SetSupportedTargetsForTest(targets);
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+}
+
 class Subtractor {
  public:
-  Subtractor(std::string name) : name_(std::move(name)) {}
+  explicit Subtractor(std::string name) : name_(std::move(name)) {}
   virtual ~Subtractor() = default;
   Subtractor(const Subtractor&) = delete;
   Subtractor& operator=(const Subtractor&) = delete;
@@ -73,8 +79,7 @@ class Ours final : public Subtractor {
 
  private:
   void apply(const cv::Mat& frame) override {
-    hwy::SetSupportedTargetsForTest(target_);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    allowTargets(target_);
     const PlaneMemory plane{frame.data, frame.total() * 3, frame.cols * 3};
     const auto view = Frame::make({PixelFormat::Bgr, {frame.cols, frame.rows}}, {&plane, 1});
     const auto picture = pictures_.take();
@@ -106,6 +111,7 @@ using Subtractors = std::vector<std::unique_ptr<Subtractor>>;
 
 Subtractors makeAll(int threads) {
   Subtractors all;
+  allowTargets(0);
   for (const int64_t target : hwy::SupportedAndGeneratedTargets())
     all.push_back(std::make_unique<Ours>(target, threads));
   const auto add = [&](const char* name, cv::Ptr<cv::BackgroundSubtractor> subtractor) {
