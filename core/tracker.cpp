@@ -275,13 +275,22 @@ Place Tracker::placeOfWhole(Track& track, const Sighting& s) const {
   return place;
 }
 
+/// Whether another track is missing where this one is: they may share what is seen.
+bool Tracker::hidesAnother(const Track& track) const {
+  return std::any_of(tracks_.begin(), tracks_.end(), [&](const Track& other) {
+    return other.id != track.id && other.isConfirmed && other.unseenNs > 0 &&
+           !intersect(other.box(), track.box()).isEmpty();
+  });
+}
+
 /// Where a track is seen. Of what the scene hides in part the end that is nearest to where it was
 /// expected is taken to be its own, the other one to be cut off.
 Place Tracker::placeOf(size_t index) {
   Track& track = tracks_[index];
   const Sighting& s = sightings_[index];
   if (s.isWhole) return placeOfWhole(track, s);
-  if (!s.box.isEmpty() && s.isSole && s.isCutOff) return placeOfPart(track, s.box, frame_);
+  if (!s.box.isEmpty() && s.isSole && !hidesAnother(track))
+    return placeOfPart(track, s.box, frame_);
   const FitTask& task = tasks_[static_cast<size_t>(s.task)];
   return {track.x + int64_t{task.fitted.x - task.expected.x} * stepPx_ * kUnit,
           track.foot + int64_t{task.fitted.y - task.expected.y} * stepPx_ * kUnit};

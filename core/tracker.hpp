@@ -175,6 +175,7 @@ class Tracker {
   void exchange(Track& a, Track& b);
   void correct(size_t index, int64_t stepNs);
   [[nodiscard]] Place placeOf(size_t index);
+  [[nodiscard]] bool hidesAnother(const Track& track) const;
   [[nodiscard]] Place placeOfWhole(Track& track, const Sighting& sighting) const;
   void miss(Track& track, int64_t stepNs) const;
   void learnSize(size_t index, int64_t stepNs, const Evidence& evidence);

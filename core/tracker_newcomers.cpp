@@ -232,8 +232,8 @@ int Tracker::likeness(const Track& track, const Newcomer& newcomer) const {
 
 void Tracker::comeBack(Track& track, const Newcomer& newcomer) const {
   // What comes out from behind something shows a part first.
-  const bool isPart = newcomer.parent == 0 && track.centreSamples > 0 &&
-                      5 * newcomer.box.width * kUnit < 4 * track.size.width;
+  const bool isPart =
+      track.centreSamples > 0 && 5 * newcomer.box.width * kUnit < 4 * track.size.width;
   const Place place = isPart ? placeOfPart(track, newcomer.box, frame_)
                              : Place{(2 * int64_t{newcomer.box.x} + newcomer.box.width) * kUnit / 2,
                                      int64_t{newcomer.box.bottom()} * kUnit};
