@@ -11,6 +11,14 @@
 namespace rg {
 namespace {
 
+void clearOutside(const Image<uint8_t>& interest, Image<uint8_t>& mask) {
+  for (int y = 0; y < mask.height(); ++y) {
+    const uint8_t* isInside = interest.row(y);
+    uint8_t* row = mask.row(y);
+    for (int x = 0; x < mask.width(); ++x) row[x] = row[x] & isInside[x];
+  }
+}
+
 class CpuBackgroundStage final : public BackgroundStage {
  public:
   explicit CpuBackgroundStage(Context context) : context_(std::move(context)) {}
@@ -61,6 +69,8 @@ Result<std::shared_ptr<const Foreground>> CpuBackgroundStage::process(
   if (!size_.isEmpty() && (size != size_ || picture->isGrey() != isGrey_))
     return Error{"the picture's format changed from " + std::to_string(size_.width) + "x" +
                  std::to_string(size_.height) + " within a stream"};
+  if (params.interest && params.interest->size() != size)
+    return Error{"the mask of interest was made for another frame size"};
   BackgroundMethodModel& model = modelOf(params.method);
   model.prepare(*picture);
   size_ = size;
@@ -74,10 +84,14 @@ Result<std::shared_ptr<const Foreground>> CpuBackgroundStage::process(
   out->picture = picture;
   model.segment({std::move(picture), params, clock_, *context_.cpu}, *out);
 
-  findComponents(out->mask, kForegroundPixel, Connectivity::Eight, parts_);
+  out->interest = params.interest;
+  if (out->interest) clearOutside(*out->interest, out->mask);
+  const Box extent = model.extent(size);
+  findComponents(out->mask.view().crop(extent), kForegroundPixel, Connectivity::Eight, parts_);
   out->areas.clear();
   for (const Component& part : parts_.list) {
-    out->areas.push_back(part.box);
+    const Box& box = part.box;
+    out->areas.push_back({extent.x + box.x, extent.y + box.y, box.width, box.height});
     out->scene.foregroundPx += part.areaPx;
   }
   return {std::move(out)};

@@ -40,9 +40,13 @@ struct Foreground {
   std::shared_ptr<const Picture> picture;  ///< What was looked at; later stages look at it too.
   Image<uint8_t> mask;                     ///< kBackgroundPixel, kShadowPixel, kForegroundPixel.
   std::vector<Box> areas;  ///< Bounding boxes of the foreground's 8-connected parts.
+  std::shared_ptr<const Image<uint8_t>> interest;  ///< As in the parameters.
   Scene scene;
 
-  void dropSources() { picture.reset(); }
+  void dropSources() {
+    picture.reset();
+    interest.reset();
+  }
 };
 
 enum class BackgroundMethod : uint8_t {
@@ -70,6 +74,8 @@ struct BackgroundParams {
   int threshold = 0;  ///< Least difference of a channel, in grey levels; 0 = found by the method.
   bool findsShadows = true;   ///< Mark cast shadows instead of counting them as foreground.
   double absorbTimeS = 60.0;  ///< After so many seconds a thing that stopped becomes background.
+  /// Where to look (core/interest.hpp), of the picture's size; none = everywhere.
+  std::shared_ptr<const Image<uint8_t>> interest;
   // Of method frame-difference:
   SearchScope search = SearchScope::Areas;
   int searchInterval =

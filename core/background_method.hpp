@@ -22,6 +22,8 @@ class BackgroundMethodModel {
   virtual void prepare(const Picture& picture) = 0;
   /// Writes status, mask and scene; then learns the frame.
   virtual void segment(const BackgroundJob& job, Foreground& out) = 0;
+  /// A box of the frame outside which the last mask is background.
+  [[nodiscard]] virtual Box extent(Size frame) const { return boundsOf(frame); }
   virtual void reset(Reset what) = 0;
 };
 

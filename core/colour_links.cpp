@@ -9,8 +9,6 @@
 namespace rg {
 namespace {
 
-constexpr int kBandsOfRows = 8;  // Each has its own histogram.
-
 /// Writes the mean of each pixel and its two neighbours, weights 1 2 1; the row's ends repeat.
 void smoothAcross(const uint8_t* from, int width, Span span, uint8_t* to) {
   if (span.first >= span.last) return;
@@ -41,7 +39,7 @@ void ColourLinks::build(const Picture& picture, ImageView<const uint8_t> mask,
   nearest_.resize(size_);
   links_.resize(size_);
   findSpans(mask, executor);
-  findBand(planes, executor);
+  band_ = params.band;
   smooth(planes, executor);
 
   const auto forRows = [&](auto&& work) {
@@ -49,7 +47,7 @@ void ColourLinks::build(const Picture& picture, ImageView<const uint8_t> mask,
       for (int y = first; y < last; ++y) work(y);
     });
   };
-  const bool guards = band_.count > 0;
+  const bool guards = channels_ == 3 && band_.count > 0;
   if (guards) {
     hues_.resize(size_);
     forRows([&](int y) {
@@ -93,32 +91,6 @@ Span ColourLinks::hull(int y, int above, int below) const {
     result = {std::min(result.first, row.first), std::max(result.last, row.last)};
   }
   return result;
-}
-
-// A quarter of the pixels is enough for a peak.
-void ColourLinks::findBand(const Planes& planes, const Executor& executor) {
-  band_ = {};
-  if (channels_ == 1) return;
-  histograms_.resize(kBandsOfRows);
-  std::array<uint64_t, kBandsOfRows> totals{};
-  executor.forEach(kBandsOfRows, [&](int band) {
-    HueHistogram& histogram = histograms_[static_cast<size_t>(band)];
-    histogram.fill(0);
-    for (int y = 2 * band; y < size_.height; y += 2 * kBandsOfRows) {
-      const Span row = span(y);
-      for (int x = row.first; x < row.last; x += 2) {
-        const int hue = hueOf(planes[0].row(y)[x], planes[1].row(y)[x], planes[2].row(y)[x]);
-        if (hue != kAchromatic) ++histogram[static_cast<size_t>(hue)];
-        ++totals[static_cast<size_t>(band)];
-      }
-    }
-  });
-  uint64_t total = totals[0];
-  for (size_t band = 1; band < kBandsOfRows; ++band) {
-    total += totals[band];
-    for (size_t hue = 0; hue < kHueCount; ++hue) histograms_[0][hue] += histograms_[band][hue];
-  }
-  band_ = findBackgroundBand(histograms_[0], total);
 }
 
 void ColourLinks::smooth(const Planes& planes, const Executor& executor) {

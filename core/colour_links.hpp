@@ -33,6 +33,7 @@ enum LinkBit : uint8_t {
 struct LinkParams {
   int similarity = 0;
   bool joinsSingles = true;  ///< Link each pixel at least to the neighbour most like it.
+  HueBand band{};            ///< Of the background, for the hue guard; none: no guard.
 };
 
 /// Columns first … last − 1 of a row.
@@ -55,13 +56,11 @@ class ColourLinks {
   [[nodiscard]] const uint8_t* leftDistances(int y) const { return left_.row(y); }
   /// Distance of pixel x to its upper neighbour; y = 0 … height.
   [[nodiscard]] const uint8_t* upDistances(int y) const { return up_.row(y); }
-  [[nodiscard]] HueBand backgroundBand() const { return band_; }
 
  private:
   using Planes = std::array<ImageView<const uint8_t>, 3>;
 
   void findSpans(ImageView<const uint8_t> mask, const Executor& executor);
-  void findBand(const Planes& planes, const Executor& executor);
   void smooth(const Planes& planes, const Executor& executor);
   void measure(int y, ImageView<const uint8_t> mask);
   void guardHues(int y);
@@ -73,7 +72,6 @@ class ColourLinks {
   int channels_ = 0;
   HueBand band_;
   std::vector<Span> spans_;
-  std::vector<HueHistogram> histograms_;
   std::array<Image<uint8_t>, 3> across_, smooth_;
   Image<int16_t> hues_;
   Image<uint8_t> left_, up_, nearest_, links_;

@@ -49,6 +49,7 @@ class CpuObjectStage final : public ObjectStage {
   void startGroups(std::vector<uint32_t>& groupOf) const;
   void followCamera(const Motion& motion, const ObjectParams& params, Objects& objects);
   void cutAroundMovers(std::vector<ArcEnergy>& energies, const Graph& graph) const;
+  void markSurroundings(const Graph& graph, const Objects& objects);
   void markBackground(const Graph& graph, const Objects& objects);
   void paint(const Graph& graph, Objects& objects);
   void describe(const Graph& graph, bool hasTime, Objects& objects);
@@ -65,6 +66,7 @@ class CpuObjectStage final : public ObjectStage {
   RegionOwnerScratch ownerScratch_;
   std::vector<Group> groups_;
   std::vector<uint8_t> isBackground_;
+  std::vector<int32_t> majority_;  ///< Of each group: foreground samples less the others.
   std::shared_ptr<const Picture> previous_;
   OwnMotionScratch ownMotionScratch_;
   std::vector<uint8_t> movesOtherwise_;  ///< Of each region, under Scope::Frame.
@@ -161,9 +163,27 @@ void CpuObjectStage::cutAroundMovers(std::vector<ArcEnergy>& energies, const Gra
           std::max(energies[i].motion, energies[i].weight() + energies[i].motion + kCut);
 }
 
+/// Under Scope::Areas regions of the background lie round the things: a group of which most pixels
+/// are not foreground. A sixteenth of the pixels tells it.
+void CpuObjectStage::markSurroundings(const Graph& graph, const Objects& objects) {
+  constexpr int kStep = 4;
+  const Labels& labels = *graph.labels;
+  if (!labels.foreground || labels.foreground->mask.size() != graph.size) return;
+  majority_.assign(groups_.size(), 0);
+  for (int y = 0; y < graph.size.height; y += kStep) {
+    const uint16_t* ids = labels.ids.row(y);
+    const uint8_t* mask = labels.foreground->mask.row(y);
+    for (int x = 0; x < graph.size.width; x += kStep)
+      if (ids[x] != kNoRegion)
+        majority_[objects.regionGroup[ids[x] - 1u]] += mask[x] == kForegroundPixel ? 1 : -1;
+  }
+  for (size_t g = 0; g < groups_.size(); ++g) isBackground_[g] = majority_[g] < 0;
+}
+
 /// Under Scope::Frame the background is all that moves as the camera does.
 void CpuObjectStage::markBackground(const Graph& graph, const Objects& objects) {
   isBackground_.assign(groups_.size(), 0);
+  if (graph.labels->scope == Scope::Areas) return markSurroundings(graph, objects);
   if (graph.labels->scope != Scope::Frame) return;
   for (size_t r = 0; r < movesOtherwise_.size(); ++r)
     if (movesOtherwise_[r] == 0) isBackground_[objects.regionGroup[r]] = 1;

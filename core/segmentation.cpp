@@ -40,6 +40,7 @@ Result<std::shared_ptr<const Labels>> skipped(Pool<Labels>& pool, Scope scope, S
   labels->status = Status::Skipped;
   labels->scope = scope;
   labels->ids.resize({});
+  labels->hue.resize({});
   labels->count = 0;
   return std::shared_ptr<const Labels>(labels);
 }
@@ -79,6 +80,11 @@ class CpuSegmentation : public SegmentationStage {
   void reset(Reset) override {}
 
  private:
+  ImageView<const uint8_t> chooseScope(const Foreground* foreground, Scope scope);
+  void coverAreas(const Foreground& foreground);
+  ImageView<const uint8_t> decideByHue(const Picture& picture, const Foreground* foreground,
+                                       const HueRules& rules, const HueBand& band,
+                                       ImageView<const uint8_t> scope, Labels& labels);
   void collectRegions(const Picture& picture);
   void addRow(const Picture& picture, int y);
   void collectBorders();
@@ -86,6 +92,7 @@ class CpuSegmentation : public SegmentationStage {
   void numberRegions(uint32_t maxRegions, Labels& labels);
 
   Context context_;
+  Image<uint8_t> scope_, rawHues_, decided_;
   ColourLinks links_;
   PixelRuns runs_;
   struct Sums {
@@ -103,12 +110,13 @@ class CpuSegmentation : public SegmentationStage {
 Result<std::shared_ptr<const Labels>> CpuSegmentation::process(
     std::shared_ptr<const Picture> picture, std::shared_ptr<const Foreground> foreground,
     const SegmentationParams& params) {
-  const bool wantsForeground = params.scope == Scope::Foreground;
+  const bool wantsForeground = params.scope != Scope::Frame;
   if (wantsForeground && !foreground)
-    return Error{"scope foreground needs a foreground: add bgremove upstream"};
+    return Error{"scopes foreground and areas need a foreground: add bgremove upstream"};
   if (!picture || (foreground && foreground->status == Status::Skipped))
     return skipped(pool_, params.scope, foreground ? foreground->size : Size{});
-  if (wantsForeground && foreground->mask.size() != picture->size())
+  if (foreground && (wantsForeground || foreground->interest) &&
+      foreground->mask.size() != picture->size())
     return Error{"the foreground was made for another frame size"};
 
   const auto labels = pool_.take();
@@ -119,9 +127,11 @@ Result<std::shared_ptr<const Labels>> CpuSegmentation::process(
   const uint32_t minArea = leastArea(params, labels->size);
   const auto maxRegions = static_cast<uint32_t>(std::clamp(params.maxRegions, 1, kMostRegions));
 
-  ImageView<const uint8_t> mask;
-  if (wantsForeground) mask = foreground->mask;
-  links_.build(*picture, mask, {params.similarity, minArea > 1}, *context_.cpu);
+  const HueBand band = findFrameBand(*picture);
+  const ImageView<const uint8_t> mask =
+      decideByHue(*picture, foreground.get(), params.hue, band,
+                  chooseScope(foreground.get(), params.scope), *labels);
+  links_.build(*picture, mask, {params.similarity, minArea > 1, band}, *context_.cpu);
   runs_.build(links_, runLimits(labels->size), *context_.cpu);
   collectRegions(*picture);
   collectBorders();
@@ -133,6 +143,68 @@ Result<std::shared_ptr<const Labels>> CpuSegmentation::process(
 }
 
 // Sums by part first: bands have those of their own.
+/// The pixels that may get a region are kForegroundPixel; without data: all.
+ImageView<const uint8_t> CpuSegmentation::chooseScope(const Foreground* foreground, Scope scope) {
+  switch (scope) {
+    case Scope::Foreground:
+      return foreground->mask;
+    case Scope::Areas:
+      coverAreas(*foreground);
+      return scope_;
+    case Scope::Frame:
+      break;
+  }
+  if (foreground && foreground->interest) return *foreground->interest;
+  return {};
+}
+
+void CpuSegmentation::coverAreas(const Foreground& foreground) {
+  const Size size = foreground.mask.size();
+  scope_.resize(size);
+  scope_.fill(kBackgroundPixel);
+  for (const Box& area : foreground.areas) {
+    const Box box = intersect(inflate(area, kAreaMargin), boundsOf(size));
+    for (int y = box.y; y < box.bottom(); ++y)
+      std::fill_n(scope_.row(y) + box.x, box.width, kForegroundPixel);
+  }
+  if (!foreground.interest) return;
+  for (int y = 0; y < size.height; ++y) {
+    const uint8_t* isInside = foreground.interest->row(y);
+    uint8_t* row = scope_.row(y);
+    for (int x = 0; x < size.width; ++x) row[x] = row[x] & isInside[x];
+  }
+}
+
+ImageView<const uint8_t> CpuSegmentation::decideByHue(const Picture& picture,
+                                                      const Foreground* foreground,
+                                                      const HueRules& rules, const HueBand& band,
+                                                      ImageView<const uint8_t> scope,
+                                                      Labels& labels) {
+  if (!rules.decide()) {
+    labels.hue.resize({});
+    return scope;
+  }
+  // Label 0 means background from here on.
+  if (labels.scope == Scope::Frame) labels.scope = Scope::Foreground;
+  labels.hue.resize(labels.size);
+  classifyHues(picture, rules, band, scope, *context_.cpu, rawHues_, labels.hue);
+  decided_.resize(labels.size);
+  const bool hasEvidence =
+      rules.objectBand.count == 0 && foreground && foreground->mask.size() == labels.size;
+  for (int y = 0; y < labels.size.height; ++y) {
+    const uint8_t* hue = labels.hue.row(y);
+    const uint8_t* evidence = hasEvidence ? foreground->mask.row(y) : nullptr;
+    uint8_t* out = decided_.row(y);
+    for (int x = 0; x < labels.size.width; ++x) {
+      const bool isIn = (!scope.data || scope.row(y)[x] == kForegroundPixel) &&
+                        (hue[x] == kObjectHue ||
+                         (hue[x] == kNoHue && evidence && evidence[x] == kForegroundPixel));
+      out[x] = isIn ? kForegroundPixel : kBackgroundPixel;
+    }
+  }
+  return decided_;
+}
+
 void CpuSegmentation::collectRegions(const Picture& picture) {
   sums_.resize(runs_.count());
   context_.cpu->forEach(runs_.bandCount(), [&](int band) {

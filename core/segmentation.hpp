@@ -7,6 +7,7 @@
 #pragma once
 
 #include "core/background.hpp"
+#include "core/hue_decision.hpp"
 #include "core/image.hpp"
 #include "core/picture.hpp"
 #include "core/result.hpp"
@@ -21,9 +22,11 @@ namespace rg {
 enum class Scope : uint8_t {
   Frame,       ///< All: the camera may move, the largest merged group is the background.
   Foreground,  ///< Those that bgremove marked; the rest has label 0.
+  Areas,       ///< Those in the boxes of bgremove's areas and kAreaMargin around; the rest has 0.
 };
 
 inline constexpr uint16_t kNoRegion = 0;
+inline constexpr int kAreaMargin = 8;
 
 /// What hsvsegment says of one frame. Immutable once published.
 struct Labels {
@@ -33,6 +36,7 @@ struct Labels {
   std::shared_ptr<const Picture> picture;
   std::shared_ptr<const Foreground> foreground;  ///< None under Scope::Frame without bgremove.
   Image<uint16_t> ids;                           ///< kNoRegion or 1 … count.
+  Image<uint8_t> hue;  ///< What hue says of each pixel (core/hue_decision.hpp); empty unless asked.
   uint32_t count = 0;
 
   void dropSources() {
@@ -48,6 +52,10 @@ struct SegmentationParams {
   int minAreaPx = 0;      ///< Smaller regions are absorbed by the neighbour most like them; 0 = by
                           ///< the frame's size. 1 also leaves single pixels alone.
   int maxRegions = 1024;  ///< 1 … 65535, never exceeded.
+  /// Hue as a decision. Of the scope's pixels those of an object's hue get a region, those of the
+  /// background's don't, and those without a hue follow the foreground, if there is one, and have
+  /// none under an objectBand. Label 0 is the background then, whatever the scope.
+  HueRules hue{};
 };
 
 class SegmentationStage {

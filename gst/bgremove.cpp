@@ -13,6 +13,7 @@
  */
 #include "core/background.hpp"
 #include "gst/elements.hpp"
+#include "gst/support/interest_mask.hpp"
 #include "gst/support/pixel_filter.hpp"
 
 #include <array>
@@ -57,7 +58,7 @@ GType thresholdSourceType() {
   return type;
 }
 
-struct Settings : PixelSettings, BackgroundParams {};
+struct Settings : PixelSettings, BackgroundParams, InterestSettings {};
 
 constexpr std::array kProperties{
     enumProperty<Settings, &Settings::method>("method", "How the background is modelled",
@@ -84,6 +85,16 @@ constexpr std::array kProperties{
         "absorb-time",
         "Seconds after which a thing that stopped moving becomes part of the background", 0.1,
         86400),
+    property<Settings, &Settings::mask>(
+        "mask",
+        "Path of a PNG picture, white where to look: nothing is foreground elsewhere, nor reported "
+        "by any element. Fitted to the frame; empty = look everywhere"),
+    property<Settings, &Settings::areasOfInterest>(
+        "areas-of-interest",
+        "Polygons to look in, and with the word exclude in front, to leave out. Points are x,y as "
+        "shares of width and height from 0 to 1, separated by blanks, polygons by ';': "
+        "\"0,0.5 1,0.5 1,1 0,1; exclude 0.4,0.6 0.5,0.6 0.5,0.7\". Holds together with mask; "
+        "empty = look everywhere"),
     enumProperty<Settings, &Settings::search>(
         "search",
         "Where method=frame-difference looks. Both find the same things; areas looks at less of "
@@ -106,17 +117,33 @@ class BgRemove final : public PixelFilter<Settings, BackgroundStage> {
  public:
   explicit BgRemove(GstBaseTransform* element) : PixelFilter(element, makeBackgroundStage) {}
 
+  bool start() override {
+    interest_ = {};
+    if (const auto read = interest_.follow(currentSettings()); !read) {
+      postError(read.error().message);
+      return false;
+    }
+    return PixelFilter::start();
+  }
+
   GstFlowReturn process(const FilterFrame& frame) override {
+    Settings settings = currentSettings();
+    if (const auto read = interest_.follow(settings); !read)
+      postWarning(read.error().message + "; what was set before stays in use");
+    settings.interest =
+        interest_.fit({GST_VIDEO_INFO_WIDTH(&frame.info), GST_VIDEO_INFO_HEIGHT(&frame.info)});
     if (!frame.isUsable) {
       attachSkipped<Foreground>(frame);
     } else if (auto picture = load(frame)) {
-      attach<Foreground>(frame,
-                         stage().process(*std::move(picture), currentSettings(), frame.time));
+      attach<Foreground>(frame, stage().process(*std::move(picture), settings, frame.time));
     } else {
       attach<Foreground>(frame, picture.error());
     }
     return GST_FLOW_OK;
   }
+
+ private:
+  InterestMask interest_;
 };
 
 const Settings kDefaults;

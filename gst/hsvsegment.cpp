@@ -16,12 +16,14 @@
 #include "gst/support/pixel_filter.hpp"
 
 #include <array>
+#include <string>
+#include <utility>
 
 namespace rg {
 namespace {
 
 /// As the user asks for it; the stage knows only what it comes to.
-enum class ScopeChoice : int { Auto, Frame, Foreground };
+enum class ScopeChoice : int { Auto, Frame, Foreground, Areas };
 
 GType scopeType() {
   static const GEnumValue values[] = {
@@ -30,6 +32,10 @@ GType scopeType() {
       {static_cast<int>(ScopeChoice::Frame), "The whole frame: for moving cameras", "frame"},
       {static_cast<int>(ScopeChoice::Foreground), "Only what bgremove marked as foreground",
        "foreground"},
+      {static_cast<int>(ScopeChoice::Areas),
+       "The boxes of bgremove's areas and 8 pixels around: only their pixels are converted and "
+       "labelled",
+       "areas"},
       {0, nullptr, nullptr}};
   static const GType type = registerEnum("GstRegionScopeChoice", values);
   return type;
@@ -37,6 +43,8 @@ GType scopeType() {
 
 struct Settings : PixelSettings, SegmentationParams {
   ScopeChoice scopeChoice = ScopeChoice::Auto;
+  std::string backgroundHue;
+  std::string objectHue;
 };
 
 constexpr std::array kProperties{
@@ -55,6 +63,17 @@ constexpr std::array kProperties{
         0, 1 << 24),
     property<Settings, &Settings::maxRegions>(
         "max-regions", "Never more regions than this; the smallest are absorbed first", 1, 65535),
+    property<Settings, &Settings::backgroundHue>(
+        "background-hue",
+        "Hues of the background: pixels of these get no region, those of other hues are objects, "
+        "and those without colour follow bgremove's foreground. auto = round the peak of the "
+        "frame's hue histogram; FROM-TO in degrees (0 red, 120 green, 240 blue), as 80-160; empty "
+        "= "
+        "hue decides nothing"),
+    property<Settings, &Settings::objectHue>(
+        "object-hue",
+        "Hues of the things to follow: only pixels of these get a region. FROM-TO in degrees, as "
+        "350-10 for red; empty = all hues"),
     threadsProperty<Settings>(),
     badBuffersProperty<Settings>(),
 };
@@ -63,23 +82,50 @@ class HsvSegment final : public PixelFilter<Settings, SegmentationStage> {
  public:
   explicit HsvSegment(GstBaseTransform* element) : PixelFilter(element, makeSegmentationStage) {}
 
+  bool start() override {
+    hueText_ = {};
+    hue_ = {};
+    if (const auto read = followHue(currentSettings()); !read) {
+      postError(read.error().message);
+      return false;
+    }
+    return PixelFilter::start();
+  }
+
   GstFlowReturn process(const FilterFrame& frame) override {
     Settings settings = currentSettings();
+    if (const auto read = followHue(settings); !read)
+      postWarning(read.error().message + "; what was set before stays in use");
+    settings.hue = hue_;
     if (frame.isFirst)
       autoScope_ = findResult<Foreground>(frame.buffer) ? Scope::Foreground : Scope::Frame;
     settings.scope = scopeOf(settings.scopeChoice);
-    if (settings.scope == Scope::Foreground) return divideForeground(frame, settings);
+    if (settings.scope != Scope::Frame) return divideForeground(frame, settings);
     divideFrame(frame, settings);
     return GST_FLOW_OK;
   }
 
  private:
+  /// Reads the hues where they are not those of the last call; an error is told once, and what was
+  /// read before stays.
+  Result<bool> followHue(const Settings& settings) {
+    std::pair text{settings.backgroundHue, settings.objectHue};
+    if (text == hueText_) return true;
+    hueText_ = std::move(text);
+    const auto rules = parseHueRules(hueText_.first, hueText_.second);
+    if (!rules) return rules.error();
+    hue_ = *rules;
+    return true;
+  }
+
   [[nodiscard]] Scope scopeOf(ScopeChoice choice) const {
     switch (choice) {
       case ScopeChoice::Frame:
         return Scope::Frame;
       case ScopeChoice::Foreground:
         return Scope::Foreground;
+      case ScopeChoice::Areas:
+        return Scope::Areas;
       case ScopeChoice::Auto:
         break;
     }
@@ -115,6 +161,8 @@ class HsvSegment final : public PixelFilter<Settings, SegmentationStage> {
   }
 
   Scope autoScope_ = Scope::Frame;
+  std::pair<std::string, std::string> hueText_;  ///< As last asked for.
+  HueRules hue_;
 };
 
 const Settings kDefaults;
@@ -127,7 +175,7 @@ const FilterDescription kDescription{
         "Divides the whole frame, or the foreground that bgremove found, into regions of "
         "one colour. Attaches the number of its region to each pixel as a meta; pixels "
         "pass untouched. Second of the five stages, needs bgremove only for "
-        "scope=foreground",
+        "scope=foreground and scope=areas",
     .example =
         "gst-launch-1.0 videotestsrc pattern=ball num-buffers=100 ! "
         "video/x-raw,format=I420 ! hsvsegment max-regions=160 ! regionmask source=labels "

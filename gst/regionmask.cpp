@@ -42,6 +42,11 @@ GType sourceType() {
        "GRAY16_BE or GRAY16_LE: the number of the region from hsvsegment, 0 = none", "labels"},
       {static_cast<int>(MaskSource::Objects),
        "GRAY8: 255 where mrfmerge sees an object that is tracked or stopped", "objects"},
+      {static_cast<int>(MaskSource::Hue),
+       "GRAY8: 255 where hsvsegment finds an object's hue, 128 where a pixel has no colour, 0 "
+       "where "
+       "it has the background's hue; needs background-hue or object-hue there",
+       "hue"},
       {0, nullptr, nullptr}};
   static const GType type = registerEnum("GstRegionMaskSource", values);
   return type;

@@ -8,7 +8,7 @@ packages=(
   # build
   g++ clang meson ninja-build pkg-config git
   libgstreamer1.0-dev libgstreamer-plugins-base1.0-dev libglib2.0-dev
-  libopencv-dev libhwy-dev libtbb-dev
+  libopencv-dev libhwy-dev libtbb-dev libpng-dev
   # checks and tests
   clang-format clang-tidy libgtest-dev libgmock-dev binutils
   python3 python3-numpy python3-opencv python3-scipy python3-jsonschema

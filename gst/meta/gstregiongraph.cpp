@@ -129,8 +129,15 @@ GstRegionStatus gst_region_labels_meta_get_status(GstRegionLabelsMeta* meta, gin
 
 GstRegionScope gst_region_labels_meta_get_scope(GstRegionLabelsMeta* meta) {
   g_return_val_if_fail(meta, GST_REGION_SCOPE_FRAME);
-  return resultOf<rg::Labels>(meta).scope == rg::Scope::Frame ? GST_REGION_SCOPE_FRAME
-                                                              : GST_REGION_SCOPE_FOREGROUND;
+  switch (resultOf<rg::Labels>(meta).scope) {
+    case rg::Scope::Foreground:
+      return GST_REGION_SCOPE_FOREGROUND;
+    case rg::Scope::Areas:
+      return GST_REGION_SCOPE_AREAS;
+    case rg::Scope::Frame:
+      break;
+  }
+  return GST_REGION_SCOPE_FRAME;
 }
 
 guint gst_region_labels_meta_get_n_regions(GstRegionLabelsMeta* meta) {

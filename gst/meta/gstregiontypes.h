@@ -23,8 +23,13 @@ typedef enum {
  * GstRegionScope:
  * @GST_REGION_SCOPE_FRAME: every pixel has a region
  * @GST_REGION_SCOPE_FOREGROUND: only foreground pixels have one, the rest has label 0
+ * @GST_REGION_SCOPE_AREAS: only pixels in and near the foreground's areas have one
  */
-typedef enum { GST_REGION_SCOPE_FRAME, GST_REGION_SCOPE_FOREGROUND } GstRegionScope;
+typedef enum {
+  GST_REGION_SCOPE_FRAME,
+  GST_REGION_SCOPE_FOREGROUND,
+  GST_REGION_SCOPE_AREAS
+} GstRegionScope;
 
 /**
  * GstRegionObjectState:

@@ -68,6 +68,17 @@ bool paintResult(GstBuffer* from, GstVideoFrame* to, Paint paintOne) {
   return result != nullptr;
 }
 
+/// A frame without a decision is one without a result, unless it was skipped.
+bool paintHue(GstBuffer* from, GstVideoFrame* to) {
+  bool isDecided = true;
+  const bool wasThere =
+      paintResult<Labels>(from, to, [&](const Labels& labels, GstVideoFrame* out) {
+        isDecided = !labels.hue.size().isEmpty();
+        paint(labels.hue.view(), out, [](uint8_t value) { return value; });
+      });
+  return wasThere && isDecided;
+}
+
 }  // namespace
 
 const char* producerOf(MaskSource source) {
@@ -76,6 +87,8 @@ const char* producerOf(MaskSource source) {
       return "bgremove";
     case MaskSource::Labels:
       return "hsvsegment";
+    case MaskSource::Hue:
+      return "hsvsegment with background-hue or object-hue";
     case MaskSource::Objects:
       break;
   }
@@ -104,6 +117,8 @@ bool paintMask(MaskSource source, GstBuffer* from, GstVideoFrame* to) {
       return paintResult<Foreground>(from, to, paintForeground);
     case MaskSource::Labels:
       return paintResult<Labels>(from, to, paintLabels);
+    case MaskSource::Hue:
+      return paintHue(from, to);
     case MaskSource::Objects:
       break;
   }

@@ -6,7 +6,7 @@
 
 namespace rg {
 
-enum class MaskSource : int { Foreground, Labels, Objects };
+enum class MaskSource : int { Foreground, Labels, Objects, Hue };
 
 /// The element whose result the source shows.
 [[nodiscard]] const char* producerOf(MaskSource source);

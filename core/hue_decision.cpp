@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "core/hue_decision.hpp"
+
+#include "core/colour_links.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <string>
+#include <utility>
+
+namespace rg {
+namespace {
+
+constexpr int kSampleStep = 4;
+constexpr double kDegrees = 360;
+
+HueBand widen(const HueBand& band, int margin) {
+  if (band.count == 0) return band;
+  const int first = band.first - margin;
+  return {first < 0 ? first + kHueCount : first, std::min(band.count + 2 * margin, kHueCount)};
+}
+
+/// What hue alone says of a pixel.
+class HueJudge {
+ public:
+  HueJudge(const HueRules& rules, const HueBand& peak) : objects_(rules.objectBand) {
+    if (rules.background == BackgroundHue::Given) background_ = rules.backgroundBand;
+    if (rules.background == BackgroundHue::FromPeak) background_ = widen(peak, kHueGuard);
+  }
+
+  [[nodiscard]] uint8_t operator()(int red, int green, int blue) const {
+    const int hue = hueOf(red, green, blue);
+    if (hue == kAchromatic) return kNoHue;
+    const bool isObject =
+        !background_.contains(hue) && (objects_.count == 0 || objects_.contains(hue));
+    return isObject ? kObjectHue : kBackgroundHue;
+  }
+
+ private:
+  HueBand background_, objects_;
+};
+
+/// Object against background pixels of the 3x3 around each; of equal numbers the pixel's own class
+/// stays.
+void settleRow(const Image<uint8_t>& raw, int y, ImageView<const uint8_t> scope, uint8_t* out) {
+  const int width = raw.width();
+  const uint8_t* rows[] = {raw.row(std::max(y - 1, 0)), raw.row(y),
+                           raw.row(std::min(y + 1, raw.height() - 1))};
+  const auto column = [&](int x) {
+    int votes = 0;
+    for (const uint8_t* row : rows) votes += row[x] == kNoHue ? 0 : row[x] == kObjectHue ? 1 : -1;
+    return votes;
+  };
+  const uint8_t* isIn = scope.data ? scope.row(y) : nullptr;
+  int left = column(0), middle = left;
+  for (int x = 0; x < width; ++x) {
+    const int right = column(std::min(x + 1, width - 1));
+    const int votes = left + middle + right;
+    left = middle;
+    middle = right;
+    const uint8_t own = rows[1][x];
+    const bool isSettled = own == kNoHue || votes == 0;
+    const uint8_t settled = votes > 0 ? kObjectHue : kBackgroundHue;
+    out[x] = isIn && isIn[x] != 255 ? kBackgroundHue : isSettled ? own : settled;
+  }
+}
+
+bool readDegrees(std::string_view text, double& to) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), to);
+  return error == std::errc{} && end == text.data() + text.size() && to >= 0 && to <= kDegrees;
+}
+
+Error noBand(std::string_view text) {
+  std::string message(text);
+  message +=
+      " is no range of hues: write it as FROM-TO in degrees from 0 to 360, as in 90-150 for "
+      "green or 350-10 for red";
+  return {std::move(message)};
+}
+
+}  // namespace
+
+HueBand findFrameBand(const Picture& picture) {
+  if (picture.isGrey()) return {};
+  HueHistogram histogram{};
+  uint64_t total = 0;
+  for (int y = 0; y < picture.size().height; y += kSampleStep) {
+    const uint8_t *red = picture.red().row(y), *green = picture.green().row(y),
+                  *blue = picture.blue().row(y);
+    for (int x = 0; x < picture.size().width; x += kSampleStep, ++total) {
+      const int hue = hueOf(red[x], green[x], blue[x]);
+      if (hue != kAchromatic) ++histogram[static_cast<size_t>(hue)];
+    }
+  }
+  return findBackgroundBand(histogram, total);
+}
+
+Result<HueBand> parseHueBand(std::string_view text) {
+  if (text.empty()) return HueBand{};
+  const size_t dash = text.find('-');
+  double from = 0, to = 0;
+  if (dash == std::string_view::npos || !readDegrees(text.substr(0, dash), from) ||
+      !readDegrees(text.substr(dash + 1), to))
+    return noBand(text);
+  const auto first = static_cast<int>(from / kDegrees * kHueCount + 0.5) % kHueCount;
+  const auto last = static_cast<int>(to / kDegrees * kHueCount + 0.5);
+  const int count = (last - first + kHueCount) % kHueCount;
+  return HueBand{first, to - from >= kDegrees ? kHueCount : count + 1};
+}
+
+Result<HueRules> parseHueRules(std::string_view background, std::string_view object) {
+  HueRules rules;
+  const bool isFromPeak = background == "auto";
+  const auto given = parseHueBand(isFromPeak ? std::string_view{} : background);
+  if (!given) return Error{"background-hue: " + given.error().message + ", or auto"};
+  const auto wanted = parseHueBand(object);
+  if (!wanted) return Error{"object-hue: " + wanted.error().message};
+  if (!background.empty())
+    rules.background = isFromPeak ? BackgroundHue::FromPeak : BackgroundHue::Given;
+  rules.backgroundBand = *given;
+  rules.objectBand = *wanted;
+  return rules;
+}
+
+void classifyHues(const Picture& picture, const HueRules& rules, const HueBand& peak,
+                  ImageView<const uint8_t> scope, const Executor& executor, Image<uint8_t>& raw,
+                  ImageView<uint8_t> classes) {
+  const HueJudge judge(rules, peak);
+  raw.resize(picture.size());
+  const int width = raw.width();
+  // Only what is looked at is converted.
+  const auto isNear = [&](int y) {
+    return !scope.data ||
+           std::find(scope.row(y), scope.row(y) + width, 255) != scope.row(y) + width;
+  };
+  executor.forRows(raw.height(), [&](int first, int last) {
+    for (int y = first; y < last; ++y) {
+      uint8_t* out = raw.row(y);
+      std::fill_n(out, width, kNoHue);
+      if (!isNear(y)) continue;
+      const uint8_t *red = picture.red().row(y), *green = picture.green().row(y),
+                    *blue = picture.blue().row(y);
+      const uint8_t* isIn = scope.data ? scope.row(y) : nullptr;
+      for (int x = 0; x < width; ++x)
+        if (!isIn || isIn[x] == 255) out[x] = judge(red[x], green[x], blue[x]);
+    }
+  });
+  executor.forRows(raw.height(), [&](int first, int last) {
+    for (int y = first; y < last; ++y) settleRow(raw, y, scope, classes.row(y));
+  });
+}
+
+}  // namespace rg
