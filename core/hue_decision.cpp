@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -102,8 +103,8 @@ Result<HueBand> parseHueBand(std::string_view text) {
   if (dash == std::string_view::npos || !readDegrees(text.substr(0, dash), from) ||
       !readDegrees(text.substr(dash + 1), to))
     return noBand(text);
-  const auto first = static_cast<int>(from / kDegrees * kHueCount + 0.5) % kHueCount;
-  const auto last = static_cast<int>(to / kDegrees * kHueCount + 0.5);
+  const auto first = static_cast<int>(std::lround(from / kDegrees * kHueCount)) % kHueCount;
+  const auto last = static_cast<int>(std::lround(to / kDegrees * kHueCount));
   const int count = (last - first + kHueCount) % kHueCount;
   return HueBand{first, to - from >= kDegrees ? kHueCount : count + 1};
 }

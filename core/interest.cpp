@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -32,7 +33,7 @@ bool readShare(std::string_view text, int& to) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc{} || end != text.data() + text.size() || !(value >= 0 && value <= 1))
     return false;
-  to = static_cast<int>(value * InterestPolygon::kUnit + 0.5);
+  to = static_cast<int>(std::lround(value * InterestPolygon::kUnit));
   return true;
 }
 

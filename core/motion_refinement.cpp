@@ -141,7 +141,8 @@ MotionRefinement::Candidate MotionRefinement::fitAlone(const FitRegion& region,
   start.at = {motion.dx * kFinePerUnit, motion.dy * kFinePerUnit};
   Candidate best;
   int64_t known = -1;
-  for (uint8_t plane = 0; plane < planes_.size(); ++plane) {
+  for (size_t i = 0; i < planes_.size(); ++i) {
+    const auto plane = static_cast<uint8_t>(i);
     const MotionFit fit = fitMotion(region, planes_[plane], start, {}, kTrialSteps);
     const int64_t least = leastInformation(fit.information);
     if (least <= known) continue;
