@@ -14,6 +14,16 @@ bool isKept(const Objects& objects, const Arc& arc) {
   return objects.regionGroup[arc.a - 1u] == objects.regionGroup[arc.b - 1u];
 }
 
+void appendTerms(std::string& out, const ArcEnergy& energy) {
+  appendReal(out, "motion", energy.motion, kEnergyUnit);
+  out += ',';
+  appendReal(out, "border", energy.border, kEnergyUnit);
+  out += ',';
+  appendReal(out, "arc", energy.arc, kEnergyUnit);
+  out += ',';
+  appendReal(out, "prediction", energy.prediction, kEnergyUnit);
+}
+
 /// The terms of U that count: U1 of kept arcs, the others of broken ones.
 void appendTotals(std::string& out, const Objects& objects, const Graph* graph) {
   ArcEnergy sum;
@@ -28,13 +38,7 @@ void appendTotals(std::string& out, const Objects& objects, const Graph* graph) 
     }
   }
   out += ",\"energy\":{";
-  appendReal(out, "motion", sum.motion, kEnergyUnit);
-  out += ',';
-  appendReal(out, "border", sum.border, kEnergyUnit);
-  out += ',';
-  appendReal(out, "arc", sum.arc, kEnergyUnit);
-  out += ',';
-  appendReal(out, "prediction", sum.prediction, kEnergyUnit);
+  appendTerms(out, sum);
   out += ',';
   appendReal(out, "total", sum.motion + sum.border + sum.arc + sum.prediction, kEnergyUnit);
   out += '}';
@@ -78,13 +82,7 @@ void appendArc(std::string& out, const Objects& objects, size_t index) {
   out += ',';
   appendReal(out, "contrast", arc.contrast, arc.borderPx);
   out += ',';
-  appendReal(out, "motion", energy.motion, kEnergyUnit);
-  out += ',';
-  appendReal(out, "border", energy.border, kEnergyUnit);
-  out += ',';
-  appendReal(out, "arc", energy.arc, kEnergyUnit);
-  out += ',';
-  appendReal(out, "prediction", energy.prediction, kEnergyUnit);
+  appendTerms(out, energy);
   out += ',';
   appendReal(out, "weight", energy.weight(), kEnergyUnit);
   out += isKept(objects, arc) ? ",\"kept\":true}" : ",\"kept\":false}";
