@@ -51,7 +51,7 @@ struct Tolerance {
 /// tolerance and what noise and unrest add.
 struct Verdicts {
   BitMask raw;     ///< Fewer than two samples are within the radius.
-  BitMask strong;  ///< Fewer than two are within twice the radius.
+  BitMask strong;  ///< Fewer than two are within 2.5 times the radius.
   Image<uint8_t> radii;
 };
 void judge(const SmoothPicture& picture, const ConsensusBackground& model,

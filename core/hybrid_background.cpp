@@ -14,7 +14,7 @@
 namespace rg {
 namespace {
 
-constexpr int kUsualThreshold = 8;  ///< Grey levels that the darkest pixel may be off.
+constexpr int kUsualThreshold = 5;  ///< Grey levels that the darkest pixel may be off.
 constexpr int kBrightness = 18;     ///< Of 256: share of the brightness that is added to it.
 constexpr int kMajority = 115;      ///< Of 256: share of foreground that keeps a pixel.
 constexpr int kMostGapStep = 14;    ///< Grey levels across a border that is no edge.

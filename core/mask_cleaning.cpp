@@ -50,11 +50,34 @@ uint64_t isAbove(const Numbers<kSquareDigits>& sum, int limit) {
   return above;
 }
 
+/// A row of a mask whose ends are repeated beyond the frame's border: what stands at the border
+/// most likely goes on behind it.
+class RepeatedRow {
+ public:
+  RepeatedRow(const BitMask& mask, int y)
+      : row_(mask.row(y)),
+        last_(mask.wordsPerRow() - 1),
+        left_(mask.at(0, y) ? ~uint64_t{0} : 0),
+        right_(mask.at(mask.width() - 1, y) ? ~uint64_t{0} : 0),
+        beyond_(right_ & ~mask.columnsOf(last_)) {}
+
+  [[nodiscard]] uint64_t word(int i) const {
+    if (i < 0) return left_;
+    if (i > last_) return right_;
+    return i == last_ ? row_[i] | beyond_ : row_[i];
+  }
+
+ private:
+  const uint64_t* row_;
+  int last_;
+  uint64_t left_, right_, beyond_;
+};
+
 /// Number of set pixels among x − radius … x + radius of a row.
-void countAlongRow(const uint64_t* row, int words, int radius, uint64_t* out) {
-  for (int word = 0; word < words; ++word, out += kRowDigits) {
-    const uint64_t before = word > 0 ? row[word - 1] : 0, here = row[word];
-    const uint64_t after = word + 1 < words ? row[word + 1] : 0;
+void countAlongRow(const BitMask& mask, int y, int radius, uint64_t* out) {
+  const RepeatedRow row(mask, y);
+  for (int word = 0; word < mask.wordsPerRow(); ++word, out += kRowDigits) {
+    const uint64_t before = row.word(word - 1), here = row.word(word), after = row.word(word + 1);
     Numbers<kRowDigits> sum{here};
     if ((before | here | after) != 0)
       for (int i = 1; i <= radius; ++i) {
@@ -66,13 +89,13 @@ void countAlongRow(const uint64_t* row, int words, int radius, uint64_t* out) {
 }
 
 void majorityRow(const Image<uint64_t>& counts, int y, int radius, int limit, uint64_t* out) {
-  const int first = std::max(0, y - radius), last = std::min(counts.height() - 1, y + radius);
   const int words = counts.width() / static_cast<int>(kRowDigits);
   for (int word = 0; word < words; ++word) {
     Numbers<kSquareDigits> sum{};
     uint64_t any = 0;
-    for (int i = first; i <= last; ++i) {
-      const uint64_t* row = counts.row(i) + static_cast<size_t>(word) * kRowDigits;
+    for (int i = y - radius; i <= y + radius; ++i) {
+      const int from = std::clamp(i, 0, counts.height() - 1);
+      const uint64_t* row = counts.row(from) + static_cast<size_t>(word) * kRowDigits;
       const uint64_t isCounted = row[0] | row[1] | row[2] | row[3];
       any |= isCounted;
       if (isCounted != 0) addRow(sum, row);
@@ -91,8 +114,7 @@ void keepMajority(const BitMask& mask, int radius, int share, const Executor& ex
   const int side = 2 * radius + 1;
   const int limit = side * side * share / 256;
   executor.forRows(mask.height(), [&](int first, int last) {
-    for (int y = first; y < last; ++y)
-      countAlongRow(mask.row(y), words, radius, scratch.counts.row(y));
+    for (int y = first; y < last; ++y) countAlongRow(mask, y, radius, scratch.counts.row(y));
   });
   executor.forRows(mask.height(), [&](int first, int last) {
     for (int y = first; y < last; ++y) {

@@ -2,7 +2,7 @@
 // Tidying binary masks. Words without a set pixel around them are skipped.
 //
 // Determinism: integers and explicit neighbourhoods; component steps follow core/components.hpp.
-// Pixels outside the picture count as 0.
+// Pixels outside the picture count as 0 where nothing else is said.
 #pragma once
 
 #include "core/bit_mask.hpp"
@@ -24,7 +24,8 @@ struct CleaningScratch {
 };
 
 /// A pixel is set where more than `share` of 256 of the square of side 2 · radius + 1 around it
-/// are set in `mask`. radius 1 … 7. share 128 is the median. In and out must differ.
+/// are set in `mask`; its border is repeated outside. radius 1 … 7. share 128 is the median. In and
+/// out must differ.
 void keepMajority(const BitMask& mask, int radius, int share, const Executor& executor,
                   CleaningScratch& scratch, BitMask& out);
 

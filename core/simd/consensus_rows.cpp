@@ -137,7 +137,9 @@ void judgeRow(const ModelRow& row, const RadiusRow& radius, const VerdictRow& ou
     for (size_t i = 0; i < 64; i += lanes) {
       const int x = begin + static_cast<int>(i);
       const V reach = radiusOf(hn::LoadU(kBytes, row.pixels[0] + x), radius, x);
-      const V wide = hn::Min(hn::SaturatedAdd(reach, reach), hn::Set(kBytes, 254));
+      const V half = hn::ShiftRight<1>(reach);
+      const V wide =
+          hn::Min(hn::SaturatedAdd(hn::SaturatedAdd(reach, reach), half), hn::Set(kBytes, 254));
       const V second = secondDistance(row, reach, x);
       hn::StoreU(reach, kBytes, out.radii + x);
       const auto isRaw = hn::Ne(hn::Max(second, reach), reach);
@@ -245,7 +247,7 @@ void plain::judgeRow(const ModelRow& row, const RadiusRow& radius, const Verdict
       nearest = std::min(nearest, d);
     }
     out.radii[x] = static_cast<uint8_t>(reach);
-    const bool isRaw = second > reach, isFar = second > std::min(254, 2 * reach);
+    const bool isRaw = second > reach, isFar = second > std::min(254, 5 * reach / 2);
     out.raw[x / 64] |= uint64_t{isRaw} << x % 64;
     out.strong[x / 64] |= uint64_t{isRaw && isFar} << x % 64;
   }

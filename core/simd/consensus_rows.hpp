@@ -36,7 +36,7 @@ struct RadiusRow {
 
 struct VerdictRow {
   uint8_t* radii;          ///< At most 255.
-  uint64_t *raw, *strong;  ///< Fewer than two samples within the radius, and within twice that.
+  uint64_t *raw, *strong;  ///< Fewer than two samples within the radius, and within 2.5 times that.
 };
 
 /// Noise follows the distance to the nearest sample where `kept` is 0.

@@ -85,7 +85,7 @@ TEST(Consensus, OneSampleIsNoMajority) {
   EXPECT_EQ(distance(flat({1, 1}, 200), model), 3);
 }
 
-TEST(Consensus, StrongPixelsAreTwiceAsFar) {
+TEST(Consensus, StrongPixelsAreTwoAndAHalfTimesAsFar) {
   auto model = started(flat({1, 1}, 50));
   model.noise.fill(0);
   const auto verdicts = [&](int level, int least) {
@@ -94,8 +94,8 @@ TEST(Consensus, StrongPixelsAreTwiceAsFar) {
   };
   EXPECT_EQ(verdicts(60, 10), std::pair(false, false));
   EXPECT_EQ(verdicts(61, 10), std::pair(true, false));
-  EXPECT_EQ(verdicts(70, 10), std::pair(true, false));
-  EXPECT_EQ(verdicts(71, 10), std::pair(true, true));
+  EXPECT_EQ(verdicts(75, 10), std::pair(true, false));
+  EXPECT_EQ(verdicts(76, 10), std::pair(true, true));
 }
 
 /// Learns a level in all pixels or none for some frames; returns those that don't know it then.

@@ -27,13 +27,21 @@ TEST(MaskCleaning, TheMedianDropsSpecksAndFillsPinholes) {
   EXPECT_EQ(majority({"#####", "#####", "##.##", "#####", "#####"}, 1, 128)[2], "#####");
 }
 
-TEST(MaskCleaning, PixelsOutsideCountAsUnset) {
-  EXPECT_EQ(majority({"###", "###", "###"}, 1, 128), (Lines{".#.", "###", ".#."}));
+TEST(MaskCleaning, TheBorderIsRepeatedOutside) {
+  EXPECT_EQ(majority({"##.", "##.", "..."}, 1, 128), (Lines{"##.", "#..", "..."}));
+  // A column at the frame's right border, in its word's first bit and in one further in.
+  for (const size_t width : {size_t{65}, size_t{70}, size_t{128}}) {
+    const std::string line = std::string(width - 1, '.') + '#';
+    EXPECT_EQ(majority({line, line, line}, 1, 128), (Lines{line, line, line})) << width;
+    EXPECT_EQ(majority({line, line, line}, 1, 192), (Lines(3, std::string(width, '.')))) << width;
+  }
 }
 
 TEST(MaskCleaning, AWindowWiderThanThePictureStaysInside) {
   EXPECT_EQ(majority({"#"}, 7, 0), (Lines{"#"}));
   EXPECT_EQ(majority({"#.", "##"}, 5, 0), (Lines{"##", "##"}));
+  // Three quarters of what is outside repeat set pixels.
+  EXPECT_EQ(majority({"#.", "##"}, 5, 128), (Lines{"##", "##"}));
 }
 
 TEST(MaskCleaning, ThreadsChangeNothing) {
