@@ -20,25 +20,20 @@ size_t at(Index i) {
   return static_cast<size_t>(i);
 }
 
-int sampleRow(int channels, int y, int sample, int channel) {
-  return (y * kSamples + sample) * channels + channel;
-}
-
 constexpr std::array<Point, 8> kNeighbours{
     {{-1, -1}, {0, -1}, {1, -1}, {-1, 0}, {1, 0}, {-1, 1}, {0, 1}, {1, 1}}};
 
-/// The first two samples of a row are the picture itself, the others its eight neighbours in turn.
+/// The first two samples of a row are the picture itself, the others its eight neighbours in turn;
+/// beyond its border the picture goes on as it ends.
 void fillSample(const SmoothPicture& picture, int y, int sample, ConsensusBackground& model) {
   const Size size = picture.size();
   const Point offset = sample < 2 ? Point{} : kNeighbours[at((sample - 2) % 8)];
   const int from = std::clamp(y + offset.y, 0, size.height - 1);
   for (int c = 0; c < model.channels; ++c) {
     const uint8_t* in = picture.planes[at(c)].row(from);
-    uint8_t* out = model.samples.row(sampleRow(model.channels, y, sample, c));
-    const int begin = offset.x < 0 ? 1 : 0, end = size.width - (offset.x > 0 ? 1 : 0);
-    out[0] = in[0];
-    out[size.width - 1] = in[size.width - 1];
-    if (end > begin) std::copy(in + begin + offset.x, in + end + offset.x, out + begin);
+    const int words = (size.width + kWordColumns - 1) / kWordColumns;
+    for (int x = 0; x < words * kWordColumns; ++x)
+      model.sample({x, y}, sample, c) = in[std::clamp(x + offset.x, 0, size.width - 1)];
   }
 }
 
@@ -50,8 +45,7 @@ RowsAround rowsAround(ImageView<const uint8_t> plane, int y) {
 ModelRow modelRow(const SmoothPicture& picture, const ConsensusBackground& model, int y) {
   ModelRow row{};
   for (int c = 0; c < model.channels; ++c) row.pixels[at(c)] = picture.planes[at(c)].row(y);
-  row.samples = model.samples.row(sampleRow(model.channels, y, 0, 0));
-  row.sampleStride = model.samples.view().strideBytes;
+  row.samples = model.samples.row(y);
   row.channels = model.channels;
   row.sampleCount = kSamples;
   row.width = picture.size().width;
@@ -136,8 +130,7 @@ class Learner {
     const int begin = word.x * kWordColumns;
     for (int c = 0; c < model_.channels; ++c) {
       const uint8_t* from = picture_.planes[at(c)].row(word.y + offset.y) + begin + offset.x;
-      const int row = sampleRow(model_.channels, word.y, static_cast<int>(sample), c);
-      uint8_t* to = model_.samples.row(row) + begin;
+      uint8_t* to = model_.block(word, static_cast<int>(sample), c);
       for (int i = 0; i < kWordColumns; i += 16) {
         const uint64_t some = columns >> i & 0xFFFF;
         if (some == 0xFFFF)
@@ -179,19 +172,13 @@ void calmUnrest(const BitMask& foreground, int y, ConsensusBackground& model) {
   }
 }
 
-struct Columns {
-  int begin, end;
-};
-
-void paintColumns(const ConsensusBackground& model, int y, int channel, Columns columns,
-                  std::array<Image<uint8_t>, 3>& planes) {
-  constexpr int kShown = 4;
-  std::array<const uint8_t*, kShown> rows{};
-  for (int k = 0; k < kShown; ++k)
-    rows[at(k)] = model.samples.row(sampleRow(model.channels, y, k * kSamples / kShown, channel));
-  uint8_t* out = planes[at(channel)].row(y);
-  for (int x = columns.begin; x < columns.end; ++x)
-    out[x] = static_cast<uint8_t>((rows[0][x] + rows[1][x] + rows[2][x] + rows[3][x] + 2) >> 2);
+void paintWord(const ConsensusBackground& model, Point word,
+               std::array<Image<uint8_t>, 3>& planes) {
+  for (int c = 0; c < model.channels; ++c) {
+    const uint8_t* first = model.block(word, 0, c);
+    const ptrdiff_t step = model.block(word, kSamples / 4, c) - first;
+    simd::meanOfFour(first, step, planes[at(c)].row(word.y) + word.x * kWordColumns);
+  }
 }
 
 void resize(const Picture& picture, SmoothPicture& out) {
@@ -229,13 +216,9 @@ void smooth(const Picture& picture, const Executor& executor, SmoothPicture& out
   });
 }
 
-ImageView<const uint8_t> ConsensusBackground::plane(int sample, int channel) const {
-  const ptrdiff_t step = samples.view().strideBytes * kSamples * channels;
-  return {samples.row(sampleRow(channels, 0, sample, channel)), noise.size(), step};
-}
-
 void prepare(Size size, int channels, ConsensusBackground& model) {
-  model.samples.resize({size.width, size.height * kSamples * channels});
+  const int words = (size.width + kWordColumns - 1) / kWordColumns;
+  model.samples.resize({words * kWordColumns * kSamples * channels, size.height});
   model.noise.resize(size);
   model.unrest.resize(size);
 }
@@ -296,8 +279,7 @@ void replaceWhere(const BitMask& places, const SmoothPicture& picture, const Exe
     forSetPixels(places, first, last, [&](int x, int y) {
       for (int k = 0; k < kSamples; ++k)
         for (int c = 0; c < model.channels; ++c)
-          model.samples.row(sampleRow(model.channels, y, k, c))[x] =
-              picture.planes[at(c)].row(y)[x];
+          model.sample({x, y}, k, c) = picture.planes[at(c)].row(y)[x];
     });
   });
 }
@@ -308,7 +290,8 @@ void paintModel(const ConsensusBackground& model, const Executor& executor,
   for (int c = 0; c < model.channels; ++c) planes[at(c)].resize(size);
   executor.forRows(size.height, [&](int first, int last) {
     for (int y = first; y < last; ++y)
-      for (int c = 0; c < model.channels; ++c) paintColumns(model, y, c, {0, size.width}, planes);
+      for (int word = 0; word * kWordColumns < size.width; ++word)
+        paintWord(model, {word, y}, planes);
   });
 }
 
@@ -317,12 +300,8 @@ void paintModelAt(const BitMask& places, const ConsensusBackground& model, const
   for (int c = 0; c < model.channels; ++c) planes[at(c)].resize(places.size());
   executor.forRows(places.height(), [&](int first, int last) {
     for (int y = first; y < last; ++y)
-      for (int word = 0; word < places.wordsPerRow(); ++word) {
-        if (places.row(y)[word] == 0) continue;
-        const int begin = word * kWordColumns;
-        const int end = std::min(places.width(), begin + kWordColumns);
-        for (int c = 0; c < model.channels; ++c) paintColumns(model, y, c, {begin, end}, planes);
-      }
+      for (int word = 0; word < places.wordsPerRow(); ++word)
+        if (places.row(y)[word] != 0) paintWord(model, {word, y}, planes);
   });
 }
 

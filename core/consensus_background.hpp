@@ -28,13 +28,31 @@ struct SmoothPicture {
 void smooth(const Picture& picture, const Executor& executor, SmoothPicture& out);
 
 struct ConsensusBackground {
-  /// Row (y · kSamples + k) · channels + c holds channel c of sample k of row y.
+  /// A row holds its words one after the other, a word its samples, a sample its channels, a
+  /// channel 64 columns: what is looked at together lies together.
   Image<uint8_t> samples;
   Image<uint8_t> noise;   ///< Mean distance to the nearest sample, 1/8 grey level.
   Image<uint8_t> unrest;  ///< How often the verdict flips; 0 … 255.
   int channels = 0;       ///< 0: empty.
 
-  [[nodiscard]] ImageView<const uint8_t> plane(int sample, int channel) const;
+  /// The 64 columns of a word (x: word of the row) in a channel of a sample.
+  [[nodiscard]] uint8_t* block(Point word, int sample, int channel) {
+    return samples.row(word.y) + offset(word.x, sample, channel);
+  }
+  [[nodiscard]] const uint8_t* block(Point word, int sample, int channel) const {
+    return samples.row(word.y) + offset(word.x, sample, channel);
+  }
+  [[nodiscard]] uint8_t& sample(Point p, int sample, int channel) {
+    return block({p.x / kWordColumns, p.y}, sample, channel)[p.x % kWordColumns];
+  }
+  [[nodiscard]] uint8_t sample(Point p, int sample, int channel) const {
+    return block({p.x / kWordColumns, p.y}, sample, channel)[p.x % kWordColumns];
+  }
+
+ private:
+  [[nodiscard]] ptrdiff_t offset(int word, int sample, int channel) const {
+    return ((ptrdiff_t{word} * kSamples + sample) * channels + channel) * kWordColumns;
+  }
 };
 
 void prepare(Size size, int channels, ConsensusBackground& model);

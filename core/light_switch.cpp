@@ -56,12 +56,13 @@ uint32_t countApart(const std::array<Image<uint8_t>, 3>& shown, const SmoothPict
 }
 
 void relight(const LevelMaps& maps, const Executor& executor, ConsensusBackground& model) {
-  const int rowsPerLine = kSamples * model.channels;
   executor.forRows(model.noise.height(), [&](int first, int last) {
-    for (int row = first * rowsPerLine; row < last * rowsPerLine; ++row) {
-      const LevelMap& map = maps[static_cast<size_t>(row % model.channels)];
-      uint8_t* samples = model.samples.row(row);
-      for (int x = 0; x < model.samples.width(); ++x) samples[x] = map[samples[x]];
+    for (int y = first; y < last; ++y) {
+      uint8_t* samples = model.samples.row(y);
+      for (int block = 0; block * kWordColumns < model.samples.width(); ++block) {
+        const LevelMap& map = maps[static_cast<size_t>(block % model.channels)];
+        for (int x = 0; x < kWordColumns; ++x, ++samples) *samples = map[*samples];
+      }
     }
   });
 }

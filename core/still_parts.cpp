@@ -134,7 +134,7 @@ class ContourReader {
   int modelled(Point p, int channel) const {
     int sum = 0;
     for (int k = 0; k < kGhostSamples; ++k)
-      sum += model_.plane(k * kSamples / kGhostSamples, channel).at(p.x, p.y);
+      sum += model_.sample(p, k * kSamples / kGhostSamples, channel);
     return sum / kGhostSamples;
   }
 

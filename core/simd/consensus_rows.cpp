@@ -18,6 +18,7 @@ namespace rg::HWY_NAMESPACE {
 #if HWY_TARGET == HWY_SCALAR
 using plain::followNoiseRow;
 using plain::judgeRow;
+using plain::meanOfFour;
 using plain::smoothRow;
 #else
 namespace {
@@ -79,17 +80,20 @@ void smoothRow(const RowsAround& in, uint8_t* out) {
   plain::smoothColumns(in, last, in.width, out);
 }
 
-V distance(const std::array<V, 3>& pixels, const ModelRow& row, int sample, int x) {
-  const uint8_t* from = row.samples + sample * row.channels * row.sampleStride + x;
-  const auto off = [&](size_t channel, const uint8_t* samples) {
-    const auto there = hn::LoadU(kBytes, samples);
-    return hn::Or(hn::SaturatedSub(pixels[channel], there),
-                  hn::SaturatedSub(there, pixels[channel]));
-  };
-  V most = off(0, from);
-  if (row.channels == 1) return most;
-  most = hn::Max(most, off(1, from + row.sampleStride));
-  return hn::Max(most, off(2, from + 2 * row.sampleStride));
+/// The samples of the columns from x on.
+const uint8_t* samplesAt(const ModelRow& row, int x) {
+  return row.samples + x / 64 * (64 * row.sampleCount * row.channels) + x % 64;
+}
+
+template <int channels>
+V distance(const std::array<V, 3>& pixels, const uint8_t* samples) {
+  V most = hn::Zero(kBytes);
+  for (size_t c = 0; c < channels; ++c) {
+    const V there = hn::LoadU(kBytes, samples + 64 * c);
+    most = hn::Max(most,
+                   hn::Or(hn::SaturatedSub(pixels[c], there), hn::SaturatedSub(there, pixels[c])));
+  }
+  return most;
 }
 
 std::array<V, 3> loadPixels(const ModelRow& row, int x) {
@@ -107,12 +111,15 @@ V radiusOf(V brightness, const RadiusRow& radius, int x) {
   return hn::SaturatedAdd(sum, hn::ShiftRight<4>(hn::LoadU(kBytes, radius.unrest + x)));
 }
 
-/// Stops as soon as no pixel can turn to background by another sample.
+/// Distance to the second nearest sample. Stops as soon as no pixel can turn to background by
+/// another sample.
+template <int channels>
 V secondDistance(const ModelRow& row, V radius, int x) {
   const std::array<V, 3> pixels = loadPixels(row, x);
-  V nearest = hn::Set(kBytes, 255), second = nearest;
-  for (int sample = 0; sample < row.sampleCount; ++sample) {
-    const V d = distance(pixels, row, sample, x);
+  const uint8_t* samples = samplesAt(row, x);
+  V nearest = distance<channels>(pixels, samples), second = hn::Set(kBytes, 255);
+  for (int sample = 1; sample < row.sampleCount; ++sample) {
+    const V d = distance<channels>(pixels, samples + 64 * channels * sample);
     second = hn::Min(second, hn::Max(nearest, d));
     nearest = hn::Min(nearest, d);
     if (hn::AllTrue(kBytes, hn::Eq(hn::Max(second, radius), radius))) break;
@@ -120,19 +127,19 @@ V secondDistance(const ModelRow& row, V radius, int x) {
   return second;
 }
 
-/// The first samples that will be read: rows are too short for the machine to see where it goes.
-/// Columns beyond the row's end are those of the next row.
+/// The first samples of a word some words on; behind the row's end these are of the next row.
 void prefetch(const ModelRow& row, int x) {
-  const int end = (row.width + 63) / 64 * 64;
-  const ptrdiff_t nextRow = row.sampleCount * row.channels * row.sampleStride;
-  const uint8_t* from = row.samples + (x < end ? x : nextRow + (x - end) % end);
-  for (int i = 0; i < 3 * row.channels; ++i) hwy::Prefetch(from + i * row.sampleStride);
+  constexpr int kAhead = 1, kSamplesAhead = 2;
+  const ptrdiff_t word = ptrdiff_t{64} * row.sampleCount * row.channels;
+  const uint8_t* from = row.samples + (x / 64 + kAhead) * word;
+  for (int i = 0; i < kSamplesAhead * row.channels; ++i) hwy::Prefetch(from + ptrdiff_t{64} * i);
 }
 
-void judgeRow(const ModelRow& row, const RadiusRow& radius, const VerdictRow& out) {
+template <int channels>
+void judgeWords(const ModelRow& row, const RadiusRow& radius, const VerdictRow& out) {
   const size_t lanes = hn::Lanes(kBytes);
   for (int begin = 0; begin < row.width; begin += 64) {
-    prefetch(row, begin + 128);
+    prefetch(row, begin);
     uint8_t raw[16], strong[16];  // StoreMaskBits may write eight bytes.
     for (size_t i = 0; i < 64; i += lanes) {
       const int x = begin + static_cast<int>(i);
@@ -140,7 +147,7 @@ void judgeRow(const ModelRow& row, const RadiusRow& radius, const VerdictRow& ou
       const V half = hn::ShiftRight<1>(reach);
       const V wide =
           hn::Min(hn::SaturatedAdd(hn::SaturatedAdd(reach, reach), half), hn::Set(kBytes, 254));
-      const V second = secondDistance(row, reach, x);
+      const V second = secondDistance<channels>(row, reach, x);
       hn::StoreU(reach, kBytes, out.radii + x);
       const auto isRaw = hn::Ne(hn::Max(second, reach), reach);
       const auto isFar = hn::Ne(hn::Max(second, wide), wide);
@@ -153,39 +160,43 @@ void judgeRow(const ModelRow& row, const RadiusRow& radius, const VerdictRow& ou
   plain::clearBeyond(row.width, out);
 }
 
+void judgeRow(const ModelRow& row, const RadiusRow& radius, const VerdictRow& out) {
+  row.channels == 1 ? judgeWords<1>(row, radius, out) : judgeWords<3>(row, radius, out);
+}
+
 /// a / 4, rounded up.
 V quarter(V a) {
   const auto rest = hn::Min(hn::And(a, hn::Set(kBytes, 3)), hn::Set(kBytes, 1));
   return hn::Add(hn::ShiftRight<2>(a), rest);
 }
 
-/// Distances to the nearest sample, one sample after the other: each is a stream of its own.
-void findNearest(const ModelRow& row, int begin, int end, uint8_t* nearest) {
+template <int channels>
+void followNoiseWords(const ModelRow& row, const NoiseRow& out) {
   const auto lanes = static_cast<int>(hn::Lanes(kBytes));
-  for (int sample = 0; sample < row.sampleCount; ++sample)
-    for (int x = begin; x < end; x += lanes) {
-      const V d = distance(loadPixels(row, x), row, sample, x);
-      uint8_t* to = nearest + (x - begin);
-      hn::StoreU(sample == 0 ? d : hn::Min(d, hn::LoadU(kBytes, to)), kBytes, to);
-    }
+  for (int x = 0; x < row.width; x += lanes) {
+    const std::array<V, 3> pixels = loadPixels(row, x);
+    const uint8_t* samples = samplesAt(row, x);
+    V near = hn::Set(kBytes, 31);
+    for (int sample = 0; sample < row.sampleCount; ++sample)
+      near = hn::Min(near, distance<channels>(pixels, samples + 64 * channels * sample));
+    const V seen = hn::ShiftLeft<3>(near), before = hn::LoadU(kBytes, out.noise + x);
+    const V less = hn::Sub(before, quarter(hn::SaturatedSub(before, seen)));
+    const V after = hn::Add(less, quarter(hn::SaturatedSub(seen, before)));
+    const auto kept = hn::LoadMaskBits(kBytes, reinterpret_cast<const uint8_t*>(out.kept) + x / 8);
+    hn::StoreU(hn::IfThenElse(kept, before, after), kBytes, out.noise + x);
+  }
 }
 
 void followNoiseRow(const ModelRow& row, const NoiseRow& out) {
-  constexpr int kChunk = 2048;  // Stays in the first cache.
-  const auto lanes = static_cast<int>(hn::Lanes(kBytes));
-  uint8_t nearest[kChunk];
-  for (int begin = 0; begin < row.width; begin += kChunk) {
-    const int end = std::min(row.width, begin + kChunk);
-    findNearest(row, begin, end, nearest);
-    for (int x = begin; x < end; x += lanes) {
-      const V near = hn::Min(hn::LoadU(kBytes, nearest + (x - begin)), hn::Set(kBytes, 31));
-      const V seen = hn::ShiftLeft<3>(near), before = hn::LoadU(kBytes, out.noise + x);
-      const V less = hn::Sub(before, quarter(hn::SaturatedSub(before, seen)));
-      const V after = hn::Add(less, quarter(hn::SaturatedSub(seen, before)));
-      const auto kept =
-          hn::LoadMaskBits(kBytes, reinterpret_cast<const uint8_t*>(out.kept) + x / 8);
-      hn::StoreU(hn::IfThenElse(kept, before, after), kBytes, out.noise + x);
-    }
+  row.channels == 1 ? followNoiseWords<1>(row, out) : followNoiseWords<3>(row, out);
+}
+
+void meanOfFour(const uint8_t* first, ptrdiff_t step, uint8_t* out) {
+  const Halves half{hn::Set(kWords, 2), hn::Set(kWords, 2)};
+  for (size_t i = 0; i < 64; i += hn::Lanes(kBytes)) {
+    Halves sum = half;
+    for (int k = 0; k < 4; ++k) sum = add(sum, split(hn::LoadU(kBytes, first + k * step + i)));
+    hn::StoreU(join<2>(sum), kBytes, out + i);
   }
 }
 
@@ -223,8 +234,9 @@ namespace {
 int distanceAt(const ModelRow& row, int sample, int x) {
   int most = 0;
   for (int c = 0; c < row.channels; ++c) {
-    const uint8_t* from = row.samples + (sample * row.channels + c) * row.sampleStride;
-    most = std::max(most, absDiff(row.pixels[static_cast<size_t>(c)][x], from[x]));
+    const int block = (x / 64 * row.sampleCount + sample) * row.channels + c;
+    const uint8_t there = row.samples[ptrdiff_t{64} * block + x % 64];
+    most = std::max(most, absDiff(row.pixels[static_cast<size_t>(c)][x], there));
   }
   return most;
 }
@@ -232,6 +244,7 @@ int distanceAt(const ModelRow& row, int sample, int x) {
 HWY_EXPORT(smoothRow);
 HWY_EXPORT(judgeRow);
 HWY_EXPORT(followNoiseRow);
+HWY_EXPORT(meanOfFour);
 
 }  // namespace
 
@@ -265,6 +278,12 @@ void plain::followNoiseRow(const ModelRow& row, const NoiseRow& out) {
   }
 }
 
+void plain::meanOfFour(const uint8_t* first, ptrdiff_t step, uint8_t* out) {
+  for (int x = 0; x < 64; ++x)
+    out[x] = static_cast<uint8_t>(
+        roundShift(first[x] + first[x + step] + first[x + 2 * step] + first[x + 3 * step], 2));
+}
+
 void simd::smoothRow(const RowsAround& in, uint8_t* out) {
   HWY_DYNAMIC_DISPATCH(smoothRow)(in, out);
 }
@@ -275,6 +294,10 @@ void simd::judgeRow(const ModelRow& row, const RadiusRow& radius, const VerdictR
 
 void simd::followNoiseRow(const ModelRow& row, const NoiseRow& noise) {
   HWY_DYNAMIC_DISPATCH(followNoiseRow)(row, noise);
+}
+
+void simd::meanOfFour(const uint8_t* first, ptrdiff_t step, uint8_t* out) {
+  HWY_DYNAMIC_DISPATCH(meanOfFour)(first, step, out);
 }
 
 }  // namespace rg

@@ -18,11 +18,11 @@ struct RowsAround {
   int width;
 };
 
-/// A row of the picture and of its model: channel c of sample k is row k · channels + c of samples.
+/// A row of the picture and of its model: channel c of sample k of the columns 64 i … 64 i + 63 is
+/// at samples + 64 ((i · sampleCount + k) · channels + c).
 struct ModelRow {
   std::array<const uint8_t*, 3> pixels;
   const uint8_t* samples;
-  ptrdiff_t sampleStride;
   int channels;  ///< 1 or 3.
   int sampleCount;
   int width;
@@ -49,6 +49,7 @@ namespace plain {
 void smoothRow(const RowsAround& in, uint8_t* out);
 void judgeRow(const ModelRow& row, const RadiusRow& radius, const VerdictRow& out);
 void followNoiseRow(const ModelRow& row, const NoiseRow& noise);
+void meanOfFour(const uint8_t* first, ptrdiff_t step, uint8_t* out);
 
 /// The columns begin … end − 1 of smoothRow.
 void smoothColumns(const RowsAround& in, int begin, int end, uint8_t* out);
@@ -62,6 +63,8 @@ void smoothRow(const RowsAround& in, uint8_t* out);
 void judgeRow(const ModelRow& row, const RadiusRow& radius, const VerdictRow& out);
 /// A quarter of the way, rounded away from the old value; distances count up to 31.
 void followNoiseRow(const ModelRow& row, const NoiseRow& noise);
+/// The rounded mean of 64 columns at first, first + step, first + 2 step and first + 3 step.
+void meanOfFour(const uint8_t* first, ptrdiff_t step, uint8_t* out);
 }  // namespace simd
 
 }  // namespace rg

@@ -79,9 +79,9 @@ TEST(Consensus, TheChannelThatIsFarthestCounts) {
 
 TEST(Consensus, OneSampleIsNoMajority) {
   auto model = started(flat({1, 1}, 50));
-  model.samples.at(0, 5) = 200;
+  model.sample({0, 0}, 5, 0) = 200;
   EXPECT_EQ(distance(flat({1, 1}, 200), model), 150);
-  model.samples.at(0, 9) = 203;
+  model.sample({0, 0}, 9, 0) = 203;
   EXPECT_EQ(distance(flat({1, 1}, 200), model), 3);
 }
 
@@ -127,7 +127,8 @@ TEST(Consensus, TheRateIsThePartOfPixelsLearntInAFrame) {
   learn(picture, {quiet, quiet, quiet}, {1, 10, false}, Executor(1), model);
   int64_t learnt = 0;
   for (int row = 0; row < model.samples.height(); ++row)
-    learnt += std::count(model.samples.row(row), model.samples.row(row) + size.width, 120);
+    learnt +=
+        std::count(model.samples.row(row), model.samples.row(row) + model.samples.width(), 120);
   // A tenth by itself and a tenth from a neighbour: 19200 dice for 16 columns, rolled twice.
   EXPECT_NEAR(static_cast<double>(learnt), 2 * 640 * 48, 0.15 * 2 * 640 * 48);
 }
@@ -144,7 +145,7 @@ TEST(Consensus, RestlessPixelsLearnTwiceAsFast) {
     learn(picture, {quiet, quiet, quiet}, {8, 10, false}, Executor(1), model);
     for (int row = 0; row < model.samples.height(); ++row)
       learnt[unrest > 127] +=
-          std::count(model.samples.row(row), model.samples.row(row) + size.width, 120);
+          std::count(model.samples.row(row), model.samples.row(row) + model.samples.width(), 120);
   }
   EXPECT_NEAR(static_cast<double>(learnt[1]) / static_cast<double>(learnt[0]), 2, 0.2);
 }

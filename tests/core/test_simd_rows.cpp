@@ -155,20 +155,22 @@ TEST(SimdRows, YuvIsLoadedAsByThePlainOne) {
 struct Scene {
   Scene(const Fill& fill, int channels)
       : pixels(filled(3, fill)),
-        samples(filled(kSamples * channels, [&](int x, int y) { return fill(x, y / 3); })),
+        samples({padded(kMostColumns) * kSamples * channels, 1}),
         noise(filled(1, [&](int x, int) { return fill(x + 1, 1); })),
         unrest(filled(1, [&](int x, int) { return fill(x, 2); })),
         radii(filled(1, [](int, int) { return kGuard; })),
-        row{{pixels.row(0), pixels.row(1), pixels.row(2)},
-            samples.row(0),
-            samples.view().strideBytes,
-            channels,
-            kSamples,
-            0} {
-    // Near samples in places that move, so that every count of them occurs.
-    for (int y = 0; y < samples.height(); ++y)
+        row{{pixels.row(0), pixels.row(1), pixels.row(2)}, samples.row(0), channels, kSamples, 0} {
+    samples.fill(kGuard);
+    for (int y = 0; y < kSamples * channels; ++y) {
+      for (int x = 0; x < kMostColumns; ++x) sample(x, y) = fill(x, y / 3);
+      // Near samples in places that move, so that every count of them occurs.
       for (int x = y % 5; x < kMostColumns; x += 1 + y % 7)
-        samples.at(x, y) = static_cast<uint8_t>(pixels.at(x, y % channels) ^ (y & 3));
+        sample(x, y) = static_cast<uint8_t>(pixels.at(x, y % channels) ^ (y & 3));
+    }
+  }
+  /// i: channel of a sample, all in turn.
+  uint8_t& sample(int x, int i) {
+    return samples.at(x / 64 * (64 * kSamples * row.channels) + 64 * i + x % 64, 0);
   }
   [[nodiscard]] RadiusRow radius(int least, int brightness) const {
     return {noise.row(0), unrest.row(0), static_cast<uint8_t>(least),
@@ -208,6 +210,21 @@ TEST(SimdRows, VerdictsAreThePlainOnes) {
     ASSERT_EQ(scene.strong, expected.strong) << "least " << least;
     expectSame(scene.radii, expected.radii, width);
     expectGuarded(scene.radii, filled(1, [](int, int) { return kGuard; }), padded(width));
+  });
+}
+
+TEST(SimdRows, MeansOfFourAreThePlainOnes) {
+  test::forEachTarget([] {
+    for (const Fill& fill : fills())
+      for (const int step : {64, 768}) {
+        Image<uint8_t> wide({4 * step, 1});
+        for (int x = 0; x < wide.width(); ++x) wide.at(x, 0) = fill(x, x / step);
+        Image<uint8_t> expected = filled(1, [](int, int) { return kGuard; });
+        Image<uint8_t> out = filled(1, [](int, int) { return kGuard; });
+        plain::meanOfFour(wide.row(0), step, expected.row(0));
+        simd::meanOfFour(wide.row(0), step, out.row(0));
+        expectSame(out, expected, out.width());
+      }
   });
 }
 
