@@ -2,7 +2,8 @@
 #include "core/consensus_background.hpp"
 
 #include "core/pixel.hpp"
-#include "core/simd/consensus_rows.hpp"
+
+#include <hwy/cache_control.h>
 
 #include <algorithm>
 #include <cstring>
@@ -59,6 +60,18 @@ uint64_t shifted(const uint64_t* row, int word, int words, int shift) {
   return row[word];
 }
 
+/// The columns of a word whose byte is at least 128.
+uint64_t highColumns(const uint8_t* bytes) {
+  uint64_t columns = 0;
+  for (int i = 0; i < kWordColumns; i += 8) {
+    uint64_t eight = 0;
+    for (int k = 0; k < 8; ++k) eight |= uint64_t{bytes[i + k]} << 8 * k;
+    // The highest bits of the eight bytes side by side in the highest byte.
+    columns |= ((eight >> 7 & 0x0101010101010101) * 0x0102040810204080 >> 56) << i;
+  }
+  return columns;
+}
+
 /// One frame's learning. Memory is what it costs: so all columns of a row take the same sample and
 /// the same neighbour, and only every few rows have their turn.
 class Learner {
@@ -85,15 +98,29 @@ class Learner {
   /// Once for the pixels' own colours, and once for those of a neighbour.
   void draw(int y, uint32_t round, Which which) {
     const uint64_t seed = uint64_t{rate_.frame} << 32 | static_cast<uint32_t>(y) << 2 | round;
-    learn(y, {}, mixHash64(seed), which);
-    const uint64_t dice = mixHash64(seed + 1);
-    const Point offset = kNeighbours[dice >> 8 & 7];
-    if (y + offset.y >= 0 && y + offset.y < picture_.size().height) learn(y, offset, dice, which);
+    const uint64_t own = mixHash64(seed), other = mixHash64(seed + 1);
+    const Point offset = kNeighbours[other >> 8 & 7];
+    const bool hasOther = y + offset.y >= 0 && y + offset.y < picture_.size().height;
+    if (which == Which::All) {
+      fetch(y, own);
+      if (hasOther) fetch(y, other);
+    }
+    learn(y, {}, own, which);
+    if (hasOther) learn(y, offset, other, which);
+  }
+
+  /// Asks for the memory that will be written: it has not been looked at for long.
+  void fetch(int y, uint64_t dice) const {
+    for (int word = 0; word < foreground_.wordsPerRow(); ++word) {
+      if (columnsOf(dice, word) == 0) continue;
+      const uint8_t* first = model_.block({word, y}, static_cast<int>(dice % kSamples), 0);
+      for (int c = 0; c < model_.channels; ++c) hwy::Prefetch(first + c * kWordColumns);
+    }
   }
 
   void learn(int y, Point offset, uint64_t dice, Which which) {
     for (int word = 0; word < foreground_.wordsPerRow(); ++word) {
-      uint64_t columns = drawnColumns(mixHash64(dice + static_cast<uint32_t>(word)));
+      uint64_t columns = columnsOf(dice, word);
       if (columns == 0) continue;
       if (which == Which::Restless) columns &= restlessColumns(word, y);
       remember(columns & teachers(word, y, offset), {word, y}, offset, dice % kSamples);
@@ -101,7 +128,8 @@ class Learner {
   }
 
   /// Four dice of 16 bits, each for 16 columns.
-  [[nodiscard]] uint64_t drawnColumns(uint64_t dice) const {
+  [[nodiscard]] uint64_t columnsOf(uint64_t seed, int word) const {
+    const uint64_t dice = mixHash64(seed + static_cast<uint32_t>(word));
     uint64_t columns = 0;
     for (int i = 0; i < 64; i += 16)
       columns |= (dice >> i & 0xFFFF) < limit_ ? uint64_t{0xFFFF} << i : 0;
@@ -109,10 +137,7 @@ class Learner {
   }
 
   uint64_t restlessColumns(int word, int y) const {
-    const uint8_t* unrest = model_.unrest.row(y) + word * kWordColumns;
-    uint64_t columns = 0;
-    for (int i = 0; i < kWordColumns; ++i) columns |= uint64_t{unrest[i]} >> 7 << i;
-    return columns;
+    return highColumns(model_.unrest.row(y) + word * kWordColumns);
   }
 
   /// Where pixel and neighbour are background; what is outside teaches nothing.
@@ -189,7 +214,6 @@ void resize(const Picture& picture, SmoothPicture& out) {
 void resize(Size size, Verdicts& out) {
   out.raw.resize(size);
   out.strong.resize(size);
-  out.radii.resize(size);
 }
 
 void smoothRow(const Picture& picture, int y, SmoothPicture& out) {
@@ -200,11 +224,8 @@ void smoothRow(const Picture& picture, int y, SmoothPicture& out) {
 
 void judgeRow(const SmoothPicture& picture, const ConsensusBackground& model,
               const Tolerance& tolerance, int y, Verdicts& out) {
-  const RadiusRow radius{model.noise.row(y), model.unrest.row(y),
-                         static_cast<uint8_t>(tolerance.least),
-                         static_cast<uint8_t>(tolerance.brightness)};
-  simd::judgeRow(modelRow(picture, model, y), radius,
-                 {out.radii.row(y), out.raw.row(y), out.strong.row(y)});
+  simd::judgeRow(modelRow(picture, model, y), radiusRow(model, tolerance, y),
+                 {out.raw.row(y), out.strong.row(y)});
 }
 
 }  // namespace
@@ -214,6 +235,11 @@ void smooth(const Picture& picture, const Executor& executor, SmoothPicture& out
   executor.forRows(picture.size().height, [&](int first, int last) {
     for (int y = first; y < last; ++y) smoothRow(picture, y, out);
   });
+}
+
+RadiusRow radiusRow(const ConsensusBackground& model, const Tolerance& tolerance, int y) {
+  return {model.noise.row(y), model.unrest.row(y), static_cast<uint8_t>(tolerance.least),
+          static_cast<uint8_t>(tolerance.brightness)};
 }
 
 void prepare(Size size, int channels, ConsensusBackground& model) {

@@ -11,6 +11,7 @@
 #include "core/executor.hpp"
 #include "core/image.hpp"
 #include "core/picture.hpp"
+#include "core/simd/consensus_rows.hpp"
 
 #include <array>
 #include <cstdint>
@@ -70,10 +71,13 @@ struct Tolerance {
 struct Verdicts {
   BitMask raw;     ///< Fewer than two samples are within the radius.
   BitMask strong;  ///< Fewer than two are within 2.5 times the radius.
-  Image<uint8_t> radii;
 };
 void judge(const SmoothPicture& picture, const ConsensusBackground& model,
            const Tolerance& tolerance, const Executor& executor, Verdicts& out);
+
+/// The radii of a row's pixels.
+[[nodiscard]] RadiusRow radiusRow(const ConsensusBackground& model, const Tolerance& tolerance,
+                                  int y);
 
 /// Both at once: the rows are judged while they are in the cache.
 struct JudgedPicture {

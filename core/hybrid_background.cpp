@@ -87,11 +87,12 @@ SceneEvent HybridBackground::followLight(const BackgroundJob& job) {
   const uint64_t before = countSet(verdicts_.raw);
   if (before * 256 < pixels * kLightShare) return SceneEvent::None;
   paintModel(model_, job.executor, shown_);
+  const Tolerance tolerance = toleranceOf(job.params);
   const LevelMaps maps = matchLight(shown_, smooth_, job.executor);
-  if (uint64_t{countApart(shown_, smooth_, maps, verdicts_.radii)} * 2 < before) {
+  if (uint64_t{countApart(shown_, smooth_, maps, model_, tolerance)} * 2 < before) {
     relight(maps, job.executor, model_);
     clear(still_);
-    judge(smooth_, model_, toleranceOf(job.params), job.executor, verdicts_);
+    judge(smooth_, model_, tolerance, job.executor, verdicts_);
     return SceneEvent::LightSwitched;
   }
   return before * 256 < pixels * kOtherSceneShare ? SceneEvent::None : SceneEvent::Changed;
@@ -108,7 +109,7 @@ void HybridBackground::clean(const BackgroundJob& job) {
 }
 
 void HybridBackground::dissolveGhosts(const BackgroundJob& job) {
-  followStill(smooth_, mask_, verdicts_.radii, job.executor, still_);
+  followStill(smooth_, model_, toleranceOf(job.params), mask_, job.executor, still_);
   const auto usual = static_cast<int>(std::clamp<int64_t>(job.clock.frames(0.4), 4, 60000));
   const int leastAge = isFirst(job) ? 4 : usual;
   findGhosts(smooth_, model_, mask_, still_, leastAge, stillScratch_, ghosts_);

@@ -43,15 +43,19 @@ LevelMaps matchLight(const std::array<Image<uint8_t>, 3>& shown, const SmoothPic
 }
 
 uint32_t countApart(const std::array<Image<uint8_t>, 3>& shown, const SmoothPicture& picture,
-                    const LevelMaps& maps, ImageView<const uint8_t> radii) {
+                    const LevelMaps& maps, const ConsensusBackground& model,
+                    const Tolerance& tolerance) {
+  const Size size = picture.size();
   uint32_t pixels = 0;
-  for (int y = 0; y < radii.height(); ++y)
-    for (int x = 0; x < radii.width(); ++x) {
+  for (int y = 0; y < size.height; ++y) {
+    const RadiusRow radius = radiusRow(model, tolerance, y);
+    for (int x = 0; x < size.width; ++x) {
       int off = 0;
       for (size_t c = 0; c < static_cast<size_t>(picture.channels); ++c)
         off = std::max(off, absDiff(maps[c][shown[c].row(y)[x]], picture.planes[c].row(y)[x]));
-      pixels += off > radii.row(y)[x];
+      pixels += off > radiusAt(radius, picture.planes[0].row(y)[x], x);
     }
+  }
   return pixels;
 }
 

@@ -27,7 +27,7 @@ using LevelMaps = std::array<LevelMap, 3>;
 /// How many pixels of the mapped model's picture are off by more than their radius.
 [[nodiscard]] uint32_t countApart(const std::array<Image<uint8_t>, 3>& shown,
                                   const SmoothPicture& picture, const LevelMaps& maps,
-                                  ImageView<const uint8_t> radii);
+                                  const ConsensusBackground& model, const Tolerance& tolerance);
 
 /// Puts everything that the model remembers into the other light.
 void relight(const LevelMaps& maps, const Executor& executor, ConsensusBackground& model);

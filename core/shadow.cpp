@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 
 namespace rg {
 namespace {
@@ -19,32 +18,55 @@ struct WindowSums {
   int64_t count = 0, i = 0, b = 0, ii = 0, ib = 0, bb = 0;
 };
 
-struct ColumnSums {
-  std::array<uint32_t, kWordColumns + 2 * kRadius> i, b, ii, ib, bb;
+/// A pixel's window that may be cut off by the picture's border.
+struct Window {
+  int left, top, right, bottom;  ///< The last two are not part of it.
 };
 
-void sumColumns(ImageView<const uint8_t> picture, ImageView<const uint8_t> background, int y,
-                int begin, int end, ColumnSums& sums) {
-  const auto count = static_cast<size_t>(end - begin);
-  for (auto* column : {&sums.i, &sums.b, &sums.ii, &sums.ib, &sums.bb})
-    std::fill_n(column->begin(), count, 0u);
-  const int last = std::min(picture.height() - 1, y + kRadius);
-  for (int row = std::max(0, y - kRadius); row <= last; ++row) {
-    const uint8_t* now = picture.row(row) + begin;
-    const uint8_t* before = background.row(row) + begin;
-    for (size_t x = 0; x < count; ++x) {
-      const uint32_t i = now[x], b = before[x];
-      sums.i[x] += i;
-      sums.b[x] += b;
-      sums.ii[x] += i * i;
-      sums.ib[x] += i * b;
-      sums.bb[x] += b * b;
-    }
+Window windowAround(Point p, Size size) {
+  return {std::max(0, p.x - kRadius), std::max(0, p.y - kRadius),
+          std::min(size.width, p.x + kRadius + 1), std::min(size.height, p.y + kRadius + 1)};
+}
+
+/// Sums over the windows of the columns of a word.
+using WordSums = std::array<uint16_t, kWordColumns>;
+
+/// Down the columns first, then across: the columns beyond the picture's border count nothing.
+WordSums sumWindows(ImageView<const uint8_t> plane, Point at) {
+  std::array<uint16_t, kWordColumns + 2 * kRadius> down{};
+  const int first = at.x * kWordColumns - kRadius;
+  const int begin = std::max(0, first);
+  const int end = std::min(plane.width(), first + static_cast<int>(down.size()));
+  const Window rows = windowAround({begin, at.y}, plane.size);
+  for (int y = rows.top; y < rows.bottom; ++y) {
+    const uint8_t* row = plane.row(y) + begin;
+    uint16_t* to = down.data() + (begin - first);
+    for (int x = 0; x < end - begin; ++x) to[x] = static_cast<uint16_t>(to[x] + row[x]);
   }
+  WordSums sums{};
+  for (size_t i = 0; i <= 2 * kRadius; ++i)
+    for (size_t x = 0; x < sums.size(); ++x) sums[x] = static_cast<uint16_t>(sums[x] + down[x + i]);
+  return sums;
 }
 
 bool isInRange(const WindowSums& s) {
   return s.i * 20 <= s.b * 19 && s.i * 5 >= s.b * 2;
+}
+
+void addProducts(ImageView<const uint8_t> picture, ImageView<const uint8_t> background,
+                 const Window& window, WindowSums& sums) {
+  sums.count = static_cast<int64_t>(window.right - window.left) * (window.bottom - window.top);
+  int ii = 0, ib = 0, bb = 0;
+  for (int y = window.top; y < window.bottom; ++y)
+    for (int x = window.left; x < window.right; ++x) {
+      const int i = picture.row(y)[x], b = background.row(y)[x];
+      ii += i * i;
+      ib += i * b;
+      bb += b * b;
+    }
+  sums.ii = ii;
+  sums.ib = ib;
+  sums.bb = bb;
 }
 
 /// One factor explains the window: the rest of I − (Σi / Σb) B is noise.
@@ -67,28 +89,16 @@ bool keepsColour(const ColourPlanes& picture, const ColourPlanes& background, Po
 /// The shadow among the pixels of one word of the mask.
 uint64_t findInWord(const ColourPlanes& picture, const ColourPlanes& background, Point at,
                     uint64_t mask) {
-  const Size size = picture.green.size;
-  const int y = at.y, first = at.x * kWordColumns;
-  const int begin = std::max(0, first - kRadius);
-  const int end = std::min(size.width, first + kWordColumns + kRadius);
-  ColumnSums columns;
   // Green stands for brightness: luma may have another range than the colours.
-  sumColumns(picture.green, background.green, y, begin, end, columns);
-  const int rows = std::min(size.height - 1, y + kRadius) - std::max(0, y - kRadius) + 1;
+  const WordSums i = sumWindows(picture.green, at), b = sumWindows(background.green, at);
+  const int first = at.x * kWordColumns;
   uint64_t shadow = 0;
-  forSetBits(mask, first, [&](int x) {
-    const auto from = static_cast<size_t>(std::max(begin, x - kRadius) - begin);
-    const auto to = static_cast<size_t>(std::min(end, x + kRadius + 1) - begin);
-    const auto sum = [&](const auto& column) {
-      return std::accumulate(column.begin() + from, column.begin() + to, int64_t{0});
-    };
-    WindowSums sums{
-        rows * static_cast<int64_t>(to - from), sum(columns.i), sum(columns.b), 0, 0, 0};
-    if (!isInRange(sums) || !keepsColour(picture, background, {x, y}, sums)) return;
-    sums.ii = sum(columns.ii);
-    sums.ib = sum(columns.ib);
-    sums.bb = sum(columns.bb);
-    if (isDarkened(sums)) shadow |= uint64_t{1} << (x - first);
+  forSetBits(mask, 0, [&](int column) {
+    const Point p{first + column, at.y};
+    WindowSums sums{0, i[static_cast<size_t>(column)], b[static_cast<size_t>(column)]};
+    if (!isInRange(sums) || !keepsColour(picture, background, p, sums)) return;
+    addProducts(picture.green, background.green, windowAround(p, picture.green.size), sums);
+    if (isDarkened(sums)) shadow |= uint64_t{1} << column;
   });
   return shadow;
 }

@@ -2,6 +2,7 @@
 #include "core/still_parts.hpp"
 
 #include "core/pixel.hpp"
+#include "core/simd/still_rows.hpp"
 
 #include <algorithm>
 #include <array>
@@ -15,74 +16,26 @@ constexpr int64_t kLeastEdge = 12;    ///< Half grey levels by which the model's
 constexpr uint8_t kFreshFrames = 250;
 constexpr int kGhostSamples = 4;  ///< Remembered colours whose mean stands for the model.
 
-/// Pixels of one word: a byte each, 255 for set ones.
-using WordBytes = std::array<uint8_t, kWordColumns>;
-
-WordBytes bytesOf(uint64_t bits) {
-  WordBytes bytes;
-  for (size_t x = 0; x < bytes.size(); ++x)
-    bytes[x] = static_cast<uint8_t>(-static_cast<int>(bits >> x & 1));
-  return bytes;
+void fadeFresh(int y, StillPixels& still) {
+  uint8_t& freshFrames = still.freshRows[static_cast<size_t>(y)];
+  if (freshFrames == 0) return;
+  --freshFrames;
+  uint8_t* fresh = still.fresh.row(y);
+  for (int x = 0; x < still.fresh.width(); ++x)
+    fresh[x] = static_cast<uint8_t>(std::max(uint8_t{1}, fresh[x]) - 1);
 }
 
-/// Of each pixel the largest difference of a channel from the colour that it keeps.
-WordBytes differences(const SmoothPicture& picture, const StillPixels& still, int y, int begin) {
-  WordBytes off{};
-  for (size_t c = 0; c < static_cast<size_t>(picture.channels); ++c) {
-    const uint8_t* now = picture.planes[c].row(y) + begin;
-    const uint8_t* kept = still.colours[c].row(y) + begin;
-    for (size_t x = 0; x < off.size(); ++x)
-      off[x] = std::max(
-          off[x], static_cast<uint8_t>(std::max(now[x], kept[x]) - std::min(now[x], kept[x])));
-  }
-  return off;
-}
-
-void keepColours(const SmoothPicture& picture, const WordBytes& isChosen, int y, int begin,
-                 StillPixels& still) {
-  for (size_t c = 0; c < static_cast<size_t>(picture.channels); ++c) {
-    const uint8_t* now = picture.planes[c].row(y) + begin;
-    uint8_t* kept = still.colours[c].row(y) + begin;
-    for (size_t x = 0; x < isChosen.size(); ++x) kept[x] = isChosen[x] != 0 ? now[x] : kept[x];
-  }
-}
-
-void followWord(const SmoothPicture& picture, uint64_t foreground, const uint8_t* radii, Point at,
+void followWord(const SmoothPicture& picture, uint64_t foreground, RadiusRow radius, Point at,
                 StillPixels& still) {
   const int begin = at.x * kWordColumns;
-  const WordBytes isForeground = bytesOf(foreground);
-  const WordBytes off = differences(picture, still, at.y, begin);
-  const auto columns = static_cast<size_t>(std::min(kWordColumns, still.ages.width() - begin));
-  std::array<uint16_t, kWordColumns> ages{};  // A row of ages may end within the word.
-  std::copy_n(still.ages.row(at.y) + begin, columns, ages.begin());
-  WordBytes isNew;
-  for (size_t x = 0; x < ages.size(); ++x) {
-    const uint16_t age = ages[x], isSame = off[x] <= radii[begin + static_cast<int>(x)];
-    const auto older = static_cast<uint16_t>(age + (age < 65535));
-    const auto younger = static_cast<uint16_t>(age - std::min<int>(age, 1 + age / 4));
-    const uint16_t next = (age != 0) & isSame ? older : younger;
-    isNew[x] = static_cast<uint8_t>(next == 0 ? isForeground[x] : 0);
-    ages[x] = static_cast<uint16_t>(isForeground[x] == 0 ? 0 : std::max<int>(next, 1));
+  StillWord word{{}, {}, still.ages.row(at.y) + begin, picture.channels, foreground};
+  for (size_t c = 0; c < static_cast<size_t>(picture.channels); ++c) {
+    word.pixels[c] = picture.planes[c].row(at.y) + begin;
+    word.kept[c] = still.colours[c].row(at.y) + begin;
   }
-  std::copy_n(ages.begin(), columns, still.ages.row(at.y) + begin);
-  keepColours(picture, isNew, at.y, begin, still);
-}
-
-void followRow(const SmoothPicture& picture, const uint64_t* foreground, const uint8_t* radii,
-               int y, StillPixels& still) {
-  uint8_t& freshFrames = still.freshRows[static_cast<size_t>(y)];
-  if (freshFrames > 0) {
-    --freshFrames;
-    uint8_t* fresh = still.fresh.row(y);
-    for (int x = 0; x < picture.size().width; ++x)
-      fresh[x] = static_cast<uint8_t>(std::max(uint8_t{1}, fresh[x]) - 1);
-  }
-  uint64_t* aged = still.aged.row(y);
-  for (int word = 0; word < still.aged.wordsPerRow(); ++word) {
-    if ((aged[word] | foreground[word]) != 0)
-      followWord(picture, foreground[word], radii, {word, y}, still);
-    aged[word] = foreground[word];
-  }
+  radius.noise += begin;
+  radius.unrest += begin;
+  simd::followStillWord(word, radius);
 }
 
 /// Reads the contour of still parts: how strong an edge do picture and model have there?
@@ -165,7 +118,8 @@ uint32_t judgeParts(StillScratch& scratch) {
 
 void prepare(Size size, int channels, StillPixels& still) {
   for (size_t c = 0; c < static_cast<size_t>(channels); ++c) still.colours[c].resize(size);
-  still.ages.resize(size);
+  const int words = (size.width + kWordColumns - 1) / kWordColumns;
+  still.ages.resize({words * kWordColumns, size.height});
   still.aged.resize(size);
   still.fresh.resize(size);
   still.freshRows.resize(static_cast<size_t>(size.height));
@@ -178,11 +132,20 @@ void clear(StillPixels& still) {
   std::fill(still.freshRows.begin(), still.freshRows.end(), uint8_t{0});
 }
 
-void followStill(const SmoothPicture& picture, const BitMask& foreground,
-                 ImageView<const uint8_t> radii, const Executor& executor, StillPixels& still) {
+void followStill(const SmoothPicture& picture, const ConsensusBackground& model,
+                 const Tolerance& tolerance, const BitMask& foreground, const Executor& executor,
+                 StillPixels& still) {
   executor.forRows(picture.size().height, [&](int first, int last) {
-    for (int y = first; y < last; ++y)
-      followRow(picture, foreground.row(y), radii.row(y), y, still);
+    for (int y = first; y < last; ++y) {
+      fadeFresh(y, still);
+      const RadiusRow radius = radiusRow(model, tolerance, y);
+      uint64_t* aged = still.aged.row(y);
+      for (int word = 0; word < still.aged.wordsPerRow(); ++word) {
+        const uint64_t now = foreground.row(y)[word];
+        if ((aged[word] | now) != 0) followWord(picture, now, radius, {word, y}, still);
+        aged[word] = now;
+      }
+    }
   });
 }
 

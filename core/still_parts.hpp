@@ -19,7 +19,7 @@ namespace rg {
 /// The colour that a foreground pixel keeps and for how many frames it has kept it.
 struct StillPixels {
   std::array<Image<uint8_t>, 3> colours;
-  Image<uint16_t> ages;  ///< 0: background, or just changed.
+  Image<uint16_t> ages;  ///< 0: background, or just changed. Whole words.
   BitMask aged;          ///< Where ages are not 0.
   Image<uint8_t> fresh;  ///< Frames for which a dissolved ghost's place is no witness; 0: it is.
   std::vector<uint8_t> freshRows;  ///< Of each row: the most frames of its pixels.
@@ -29,9 +29,11 @@ void prepare(Size size, int channels, StillPixels& still);
 /// Forgets all.
 void clear(StillPixels& still);
 
-/// Ages pixels of `foreground` whose colour stays within `radii`, ages the others backwards.
-void followStill(const SmoothPicture& picture, const BitMask& foreground,
-                 ImageView<const uint8_t> radii, const Executor& executor, StillPixels& still);
+/// Ages pixels of `foreground` whose colour stays within the model's radius, ages the others
+/// backwards.
+void followStill(const SmoothPicture& picture, const ConsensusBackground& model,
+                 const Tolerance& tolerance, const BitMask& foreground, const Executor& executor,
+                 StillPixels& still);
 
 /// Of one part: edges across its contour, summed over the pixels where they could be read.
 struct ContourSums {

@@ -148,7 +148,6 @@ void judgeWords(const ModelRow& row, const RadiusRow& radius, const VerdictRow& 
       const V wide =
           hn::Min(hn::SaturatedAdd(hn::SaturatedAdd(reach, reach), half), hn::Set(kBytes, 254));
       const V second = secondDistance<channels>(row, reach, x);
-      hn::StoreU(reach, kBytes, out.radii + x);
       const auto isRaw = hn::Ne(hn::Max(second, reach), reach);
       const auto isFar = hn::Ne(hn::Max(second, wide), wide);
       hn::StoreMaskBits(kBytes, isRaw, raw + i / 8);
@@ -251,15 +250,13 @@ HWY_EXPORT(meanOfFour);
 void plain::judgeRow(const ModelRow& row, const RadiusRow& radius, const VerdictRow& out) {
   for (int word = 0; word * 64 < row.width; ++word) out.raw[word] = out.strong[word] = 0;
   for (int x = 0; x < row.width; ++x) {
-    const int reach = std::min(255, radius.least + (row.pixels[0][x] * radius.brightness >> 8) +
-                                        (radius.noise[x] >> 2) + (radius.unrest[x] >> 4));
+    const int reach = radiusAt(radius, row.pixels[0][x], x);
     int nearest = 255, second = 255;
     for (int sample = 0; sample < row.sampleCount; ++sample) {
       const int d = distanceAt(row, sample, x);
       second = std::min(second, std::max(nearest, d));
       nearest = std::min(nearest, d);
     }
-    out.radii[x] = static_cast<uint8_t>(reach);
     const bool isRaw = second > reach, isFar = second > std::min(254, 5 * reach / 2);
     out.raw[x / 64] |= uint64_t{isRaw} << x % 64;
     out.strong[x / 64] |= uint64_t{isRaw && isFar} << x % 64;

@@ -28,14 +28,19 @@ struct ModelRow {
   int width;
 };
 
-/// What the distance is compared with: least + brightness · pixel / 256 + noise / 4 + unrest / 16.
+/// What the distance is compared with: least + brightness · pixel / 256 + noise / 4 + unrest / 16,
+/// at most 255.
 struct RadiusRow {
   const uint8_t *noise, *unrest;
   uint8_t least, brightness;
 };
+[[nodiscard]] constexpr int radiusAt(const RadiusRow& radius, uint8_t pixel, int x) {
+  const int sum = radius.least + (pixel * radius.brightness >> 8) + (radius.noise[x] >> 2) +
+                  (radius.unrest[x] >> 4);
+  return sum < 255 ? sum : 255;
+}
 
 struct VerdictRow {
-  uint8_t* radii;          ///< At most 255.
   uint64_t *raw, *strong;  ///< Fewer than two samples within the radius, and within 2.5 times that.
 };
 

@@ -193,7 +193,7 @@ TEST(Consensus, BrightNoisyAndRestlessPixelsAreToleratedFurther) {
   const auto dark = flat({1, 1}, 0), bright = flat({1, 1}, 255);
   auto model = started(dark);
   const auto radius = [&](const SmoothPicture& picture, const Tolerance& tolerance) {
-    return int{judged(picture, model, tolerance).radii.at(0, 0)};
+    return radiusAt(radiusRow(model, tolerance, 0), picture.planes[0].at(0, 0), 0);
   };
   model.noise.fill(0);
   EXPECT_EQ(radius(dark, {8, 64}), 8);
@@ -223,15 +223,14 @@ SmoothPicture square(bool isThere) {
 uint32_t ghostPixels(bool inModel, bool inPicture, int age) {
   const auto picture = square(inPicture);
   auto model = started(square(inModel));
-  Image<uint8_t> radii({24, 24});
   BitMask mask({24, 24}), ghosts({24, 24});
   mask.clear();
   for (int y = 8; y < 16; ++y) setColumns(mask.row(y), 8, 16, true);
-  radii.fill(10);
+  model.noise.fill(0);
   StillPixels still;
   prepare({24, 24}, 1, still);
   clear(still);
-  for (int i = 0; i < age; ++i) followStill(picture, mask, radii, Executor(1), still);
+  for (int i = 0; i < age; ++i) followStill(picture, model, {10, 0}, mask, Executor(1), still);
   StillScratch scratch;
   return findGhosts(picture, model, mask, still, 10, scratch, ghosts);
 }
@@ -256,10 +255,10 @@ TEST(StillParts, AChangeOfColourMakesYoung) {
   BitMask mask(size);
   mask.clear();
   mask.set(0, 0);
-  Image<uint8_t> radii(size);
-  radii.fill(10);
+  auto model = started(flat(size, 0));
+  model.noise.fill(0);
   const auto age = [&](int level) {
-    followStill(flat(size, level), mask, radii, Executor(1), still);
+    followStill(flat(size, level), model, {10, 0}, mask, Executor(1), still);
     return int{still.ages.at(0, 0)};
   };
   EXPECT_EQ(age(100), 1);

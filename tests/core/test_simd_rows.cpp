@@ -7,6 +7,7 @@
 #include "core/simd/bit_rows.hpp"
 #include "core/simd/consensus_rows.hpp"
 #include "core/simd/picture_rows.hpp"
+#include "core/simd/still_rows.hpp"
 #include "tests/core/simd_targets.hpp"
 
 #include <functional>
@@ -158,7 +159,6 @@ struct Scene {
         samples({padded(kMostColumns) * kSamples * channels, 1}),
         noise(filled(1, [&](int x, int) { return fill(x + 1, 1); })),
         unrest(filled(1, [&](int x, int) { return fill(x, 2); })),
-        radii(filled(1, [](int, int) { return kGuard; })),
         row{{pixels.row(0), pixels.row(1), pixels.row(2)}, samples.row(0), channels, kSamples, 0} {
     samples.fill(kGuard);
     for (int y = 0; y < kSamples * channels; ++y) {
@@ -176,9 +176,9 @@ struct Scene {
     return {noise.row(0), unrest.row(0), static_cast<uint8_t>(least),
             static_cast<uint8_t>(brightness)};
   }
-  [[nodiscard]] VerdictRow out() { return {radii.row(0), raw.data(), strong.data()}; }
+  [[nodiscard]] VerdictRow out() { return {raw.data(), strong.data()}; }
 
-  Image<uint8_t> pixels, samples, noise, unrest, radii;
+  Image<uint8_t> pixels, samples, noise, unrest;
   ModelRow row;
   std::array<uint64_t, 8> raw{}, strong{};
 };
@@ -208,8 +208,6 @@ TEST(SimdRows, VerdictsAreThePlainOnes) {
     simd::judgeRow(scene.row, scene.radius(least, brightness), scene.out());
     ASSERT_EQ(scene.raw, expected.raw) << "least " << least;
     ASSERT_EQ(scene.strong, expected.strong) << "least " << least;
-    expectSame(scene.radii, expected.radii, width);
-    expectGuarded(scene.radii, filled(1, [](int, int) { return kGuard; }), padded(width));
   });
 }
 
@@ -239,6 +237,55 @@ TEST(SimdRows, NoiseIsThePlainOne) {
     simd::followNoiseRow(scene.row, {scene.noise.row(0), kept.data()});
     expectSame(scene.noise, expected.noise, width);
     expectGuarded(scene.noise, expected.noise, padded(width));
+  });
+}
+
+/// What still foreground is, word by word, from a row of a scene.
+struct Stillness {
+  explicit Stillness(const Scene& scene)
+      : kept(filled(3, [](int x, int row) { return static_cast<uint8_t>(x * 5 + row); })),
+        ages({padded(kMostColumns), 1}) {
+    constexpr std::array<uint16_t, 8> kAges{0, 1, 2, 3, 5, 300, 65534, 65535};
+    for (int x = 0; x < ages.width(); ++x) ages.at(x, 0) = kAges[static_cast<size_t>(x % 8)];
+    for (int c = 0; c < 3; ++c)  // Half of the columns keep nearly the colour that they have.
+      for (int x = 0; x < kMostColumns; ++x)
+        if (x / 3 % 2 == 0) kept.at(x, c) = static_cast<uint8_t>(scene.pixels.at(x, c) ^ (x & 7));
+  }
+  StillWord word(const Scene& scene, int at, uint64_t foreground) {
+    const int x = 64 * at;
+    return {{scene.pixels.row(0) + x, scene.pixels.row(1) + x, scene.pixels.row(2) + x},
+            {kept.row(0) + x, kept.row(1) + x, kept.row(2) + x},
+            ages.row(0) + x,
+            scene.row.channels,
+            foreground};
+  }
+
+  Image<uint8_t> kept;
+  Image<uint16_t> ages;
+};
+
+TEST(SimdRows, StillPixelsAreThePlainOnes) {
+  test::forEachTarget([] {
+    std::mt19937_64 random(7);
+    for (const Fill& fill : fills())
+      for (const int channels : {1, 3}) {
+        const Scene scene(fill, channels);
+        Stillness expected(scene), out(scene);
+        for (int frame = 0; frame < 4; ++frame)
+          for (int at = 0; at < kMostColumns / 64; ++at) {
+            const uint64_t foreground = random() | random();
+            RadiusRow radius = scene.radius(frame * 40, 30 * frame);
+            radius.noise += 64 * at;
+            radius.unrest += 64 * at;
+            plain::followStillWord(expected.word(scene, at, foreground), radius);
+            simd::followStillWord(out.word(scene, at, foreground), radius);
+          }
+        for (int x = 0; x < out.ages.width(); ++x)
+          ASSERT_EQ(out.ages.at(x, 0), expected.ages.at(x, 0)) << "column " << x;
+        for (int c = 0; c < 3; ++c)
+          for (int x = 0; x < out.kept.width(); ++x)
+            ASSERT_EQ(int{out.kept.at(x, c)}, int{expected.kept.at(x, c)}) << "column " << x;
+      }
   });
 }
 
