@@ -24,18 +24,24 @@ size_t at(Index i) {
 constexpr std::array<Point, 8> kNeighbours{
     {{-1, -1}, {0, -1}, {1, -1}, {-1, 0}, {1, 0}, {-1, 1}, {0, 1}, {1, 1}}};
 
-/// The first two samples of a row are the picture itself, the others its eight neighbours in turn;
-/// beyond its border the picture goes on as it ends.
+/// Copies `count` pixels of a row from column x on; beyond its ends the row goes on as it ends.
+void copyRepeated(const uint8_t* row, int width, int x, int count, uint8_t* out) {
+  if (x >= 0 && x + count <= width) {
+    std::copy_n(row + x, count, out);
+    return;
+  }
+  for (int i = 0; i < count; ++i) out[i] = row[std::clamp(x + i, 0, width - 1)];
+}
+
+/// The first two samples of a row are the picture itself, the others its eight neighbours in turn.
 void fillSample(const SmoothPicture& picture, int y, int sample, ConsensusBackground& model) {
   const Size size = picture.size();
   const Point offset = sample < 2 ? Point{} : kNeighbours[at((sample - 2) % 8)];
   const int from = std::clamp(y + offset.y, 0, size.height - 1);
-  for (int c = 0; c < model.channels; ++c) {
-    const uint8_t* in = picture.planes[at(c)].row(from);
-    const int words = (size.width + kWordColumns - 1) / kWordColumns;
-    for (int x = 0; x < words * kWordColumns; ++x)
-      model.sample({x, y}, sample, c) = in[std::clamp(x + offset.x, 0, size.width - 1)];
-  }
+  for (int c = 0; c < model.channels; ++c)
+    for (int word = 0; word * kWordColumns < size.width; ++word)
+      copyRepeated(picture.planes[at(c)].row(from), size.width, word * kWordColumns + offset.x,
+                   kWordColumns, model.block({word, y}, sample, c));
 }
 
 RowsAround rowsAround(ImageView<const uint8_t> plane, int y) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/mask_cleaning.hpp"
 
-#include "core/pixel.hpp"
+#include "core/simd/majority_rows.hpp"
 
 #include <algorithm>
 #include <array>
@@ -10,116 +10,46 @@
 namespace rg {
 namespace {
 
-/// Numbers of 64 columns, one binary digit a word: digit i of column x is bit x of word i.
-template <size_t digits>
-using Numbers = std::array<uint64_t, digits>;
-constexpr size_t kRowDigits = 4;     ///< At most 15 pixels along a row,
-constexpr size_t kSquareDigits = 8;  ///< 225 in a square.
+constexpr int kMostRadius = 7;
+constexpr int kVectorWords = 8;  ///< Rows of words are handled by so many.
 
-template <size_t digits>
-void addBit(Numbers<digits>& sum, uint64_t carry) {
-  for (size_t i = 0; i < digits && carry != 0; ++i) {
-    const uint64_t both = sum[i] & carry;
-    sum[i] ^= carry;
-    carry = both;
-  }
-}
-
-void addRow(Numbers<kSquareDigits>& sum, const uint64_t* row) {
-  uint64_t carry = 0;
-  for (size_t i = 0; i < kRowDigits; ++i) {
-    const uint64_t half = sum[i] ^ row[i];
-    const uint64_t next = (sum[i] & row[i]) | (half & carry);
-    sum[i] = half ^ carry;
-    carry = next;
-  }
-  for (size_t i = kRowDigits; i < kSquareDigits && carry != 0; ++i) {
-    const uint64_t next = sum[i] & carry;
-    sum[i] ^= carry;
-    carry = next;
-  }
-}
-
-uint64_t isAbove(const Numbers<kSquareDigits>& sum, int limit) {
-  uint64_t above = 0, equal = ~uint64_t{0};
-  for (size_t i = kSquareDigits; i-- > 0;) {
-    const uint64_t digit = (limit >> i & 1) != 0 ? ~uint64_t{0} : 0;
-    above |= equal & sum[i] & ~digit;
-    equal &= ~(sum[i] ^ digit);
-  }
-  return above;
-}
-
-/// A row of a mask whose ends are repeated beyond the frame's border: what stands at the border
-/// most likely goes on behind it.
-class RepeatedRow {
- public:
-  RepeatedRow(const BitMask& mask, int y)
-      : row_(mask.row(y)),
-        last_(mask.wordsPerRow() - 1),
-        left_(mask.at(0, y) ? ~uint64_t{0} : 0),
-        right_(mask.at(mask.width() - 1, y) ? ~uint64_t{0} : 0),
-        beyond_(right_ & ~mask.columnsOf(last_)) {}
-
-  [[nodiscard]] uint64_t word(int i) const {
-    if (i < 0) return left_;
-    if (i > last_) return right_;
-    return i == last_ ? row_[i] | beyond_ : row_[i];
-  }
-
- private:
-  const uint64_t* row_;
-  int last_;
-  uint64_t left_, right_, beyond_;
-};
-
-/// Number of set pixels among x − radius … x + radius of a row.
-void countAlongRow(const BitMask& mask, int y, int radius, uint64_t* out) {
-  const RepeatedRow row(mask, y);
-  for (int word = 0; word < mask.wordsPerRow(); ++word, out += kRowDigits) {
-    const uint64_t before = row.word(word - 1), here = row.word(word), after = row.word(word + 1);
-    Numbers<kRowDigits> sum{here};
-    if ((before | here | after) != 0)
-      for (int i = 1; i <= radius; ++i) {
-        addBit(sum, here << i | before >> (kWordColumns - i));
-        addBit(sum, here >> i | after << (kWordColumns - i));
-      }
-    for (size_t i = 0; i < kRowDigits; ++i) out[i] = sum[i];
-  }
-}
-
-void majorityRow(const Image<uint64_t>& counts, int y, int radius, int limit, uint64_t* out) {
-  const int words = counts.width() / static_cast<int>(kRowDigits);
-  for (int word = 0; word < words; ++word) {
-    Numbers<kSquareDigits> sum{};
-    uint64_t any = 0;
-    for (int i = y - radius; i <= y + radius; ++i) {
-      const int from = std::clamp(i, 0, counts.height() - 1);
-      const uint64_t* row = counts.row(from) + static_cast<size_t>(word) * kRowDigits;
-      const uint64_t isCounted = row[0] | row[1] | row[2] | row[3];
-      any |= isCounted;
-      if (isCounted != 0) addRow(sum, row);
-    }
-    out[word] = any == 0 ? 0 : isAbove(sum, limit);
-  }
+/// Rows of a mask whose ends are repeated beyond the frame's border: what stands at the border most
+/// likely goes on behind it.
+void repeatEnds(const BitMask& mask, int y, uint64_t* row) {
+  const int words = mask.wordsPerRow();
+  const uint64_t right = mask.at(mask.width() - 1, y) ? ~uint64_t{0} : 0;
+  row[-1] = mask.at(0, y) ? ~uint64_t{0} : 0;
+  std::copy_n(mask.row(y), words, row);
+  row[words - 1] |= right & ~mask.columnsOf(words - 1);
+  row[words] = right;
 }
 
 }  // namespace
 
 void keepMajority(const BitMask& mask, int radius, int share, const Executor& executor,
                   CleaningScratch& scratch, BitMask& out) {
-  assert(radius >= 1 && radius <= 7 && mask.size() == out.size());
-  const int words = mask.wordsPerRow();
-  scratch.counts.resize({words * static_cast<int>(kRowDigits), mask.height()});
-  const int side = 2 * radius + 1;
+  assert(radius >= 1 && radius <= kMostRadius && mask.size() == out.size());
+  const int words = (mask.wordsPerRow() + kVectorWords - 1) / kVectorWords * kVectorWords;
+  const int height = mask.height(), side = 2 * radius + 1;
   const int limit = side * side * share / 256;
-  executor.forRows(mask.height(), [&](int first, int last) {
-    for (int y = first; y < last; ++y) countAlongRow(mask, y, radius, scratch.counts.row(y));
-  });
-  executor.forRows(mask.height(), [&](int first, int last) {
+  scratch.repeated.resize({words + 2 * kVectorWords, height});
+  scratch.counts.resize({words * static_cast<int>(kCountDigits), height});
+  executor.forRows(height, [&](int first, int last) {
     for (int y = first; y < last; ++y) {
-      majorityRow(scratch.counts, y, radius, limit, out.row(y));
-      out.row(y)[words - 1] &= out.columnsOf(words - 1);
+      uint64_t* row = scratch.repeated.row(y) + kVectorWords;
+      repeatEnds(mask, y, row);
+      simd::countAlongRow(row, static_cast<size_t>(words), radius, scratch.counts.row(y));
+    }
+  });
+  executor.forRows(height, [&](int first, int last) {
+    for (int y = first; y < last; ++y) {
+      std::array<const uint64_t*, 2 * kMostRadius + 1> rows;
+      for (int i = 0; i < side; ++i)
+        rows[static_cast<size_t>(i)] =
+            scratch.counts.row(std::clamp(y + i - radius, 0, height - 1));
+      simd::compareSums({rows.data(), static_cast<size_t>(side)}, static_cast<size_t>(words), limit,
+                        out.row(y));
+      out.row(y)[mask.wordsPerRow() - 1] &= out.columnsOf(mask.wordsPerRow() - 1);
     }
   });
 }

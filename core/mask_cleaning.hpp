@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Tidying binary masks. Words without a set pixel around them are skipped.
+// Tidying binary masks.
 //
 // Determinism: integers and explicit neighbourhoods; component steps follow core/components.hpp.
 // Pixels outside the picture count as 0 where nothing else is said.
@@ -19,7 +19,8 @@ namespace rg {
 struct CleaningScratch {
   Components components;
   std::vector<uint8_t> isChosen;
-  Image<uint64_t> counts;              ///< Sums along rows, bit by bit.
+  Image<uint64_t> repeated;            ///< The mask with its ends repeated.
+  Image<uint64_t> counts;              ///< Sums along rows, digit by digit.
   std::vector<int> firstRow, lastRow;  ///< Of each column's edge pixels.
 };
 

@@ -6,6 +6,7 @@
 #include "core/pixel.hpp"
 #include "core/simd/bit_rows.hpp"
 #include "core/simd/consensus_rows.hpp"
+#include "core/simd/majority_rows.hpp"
 #include "core/simd/picture_rows.hpp"
 #include "core/simd/still_rows.hpp"
 #include "tests/core/simd_targets.hpp"
@@ -85,6 +86,35 @@ TEST(SimdRows, PackingIsThePlainOne) {
       ASSERT_EQ(words, expected) << "value " << value;
       ASSERT_EQ(words.at(static_cast<size_t>(padded(width) / 64)), kUntouched);
     }
+  });
+}
+
+TEST(SimdRows, CountsAndTheirSumsAreThePlainOnes) {
+  test::forEachTarget([] {
+    std::mt19937_64 random(5);
+    for (const size_t words : {8u, 16u, 40u})
+      for (int radius = 1; radius <= 7; ++radius) {
+        const auto side = static_cast<size_t>(2 * radius + 1);
+        std::vector<std::vector<uint64_t>> expected, counts;
+        std::vector<const uint64_t*> rows;
+        for (size_t y = 0; y < side; ++y) {
+          std::vector<uint64_t> row(words + 2);
+          for (uint64_t& word : row) word = y % 3 == 0 ? ~uint64_t{0} : random() | random();
+          counts.emplace_back(kCountDigits * words + 1, kGuard);
+          expected.emplace_back(kCountDigits * words + 1, kGuard);
+          plain::countAlongRow(row.data() + 1, words, radius, expected.back().data());
+          simd::countAlongRow(row.data() + 1, words, radius, counts.back().data());
+          ASSERT_EQ(counts.back(), expected.back()) << "radius " << radius;
+        }
+        for (const std::vector<uint64_t>& row : counts) rows.push_back(row.data());
+        const auto area = static_cast<int>(side * side);
+        for (const int limit : {0, area / 2, area * 4 / 5, area - 1, area}) {
+          std::vector<uint64_t> wanted(words + 1, kGuard), out(words + 1, kGuard);
+          plain::compareSums(rows, words, limit, wanted.data());
+          simd::compareSums(rows, words, limit, out.data());
+          ASSERT_EQ(out, wanted) << "limit " << limit;
+        }
+      }
   });
 }
 
