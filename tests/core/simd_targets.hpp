@@ -10,6 +10,7 @@
 #include <tbb/task_arena.h>
 
 #include <cstdint>
+#include <memory>
 #include <string>
 
 namespace rg::test {
@@ -39,8 +40,8 @@ void forEachTarget(const Check& check) {
   }
 }
 
-/// Calls check(executor) on each target with one to four threads, on any machine: an executor has
-/// as many threads as the arena that it is made in.
+/// Calls check(shared executor) on each target with one to four threads, on any machine: an
+/// executor has as many threads as the arena that it is made in.
 template <class Check>
 void forEachTargetAndThreads(const Check& check) {
   constexpr int kMostThreads = 4;
@@ -49,8 +50,8 @@ void forEachTargetAndThreads(const Check& check) {
     for (int threads = 1; threads <= kMostThreads; ++threads)
       tbb::task_arena(kMostThreads).execute([&] {
         SCOPED_TRACE(std::to_string(threads) + " threads");
-        const Executor executor(threads);
-        ASSERT_EQ(executor.threads(), threads);
+        const auto executor = std::make_shared<const Executor>(threads);
+        ASSERT_EQ(executor->threads(), threads);
         check(executor);
       });
   });

@@ -181,8 +181,8 @@ void expectSameRows(const Image<uint8_t>& a, const Image<uint8_t>& b) {
 
 TEST(Consensus, TargetsAndThreadsChangeNoSample) {
   const ConsensusBackground expected = modelAfterFrames(Executor(1));
-  test::forEachTargetAndThreads([&](const Executor& executor) {
-    const ConsensusBackground model = modelAfterFrames(executor);
+  test::forEachTargetAndThreads([&](const std::shared_ptr<const Executor>& executor) {
+    const ConsensusBackground model = modelAfterFrames(*executor);
     expectSameRows(model.samples, expected.samples);
     expectSameRows(model.noise, expected.noise);
     expectSameRows(model.unrest, expected.unrest);

@@ -241,9 +241,8 @@ TEST(SimdStages, EveryTargetAndNumberOfThreadsGivesTheSameAnswers) {
         const test::TargetScope scope(HWY_SCALAR);
         return answersOf(first, second, contextWith(1), params);
       }();
-      test::forEachTargetAndThreads([&](const Executor& executor) {
-        const Context context{std::make_shared<const Executor>(executor.threads()), nullptr};
-        EXPECT_EQ(answersOf(first, second, context, params), expected)
+      test::forEachTargetAndThreads([&](const std::shared_ptr<const Executor>& executor) {
+        EXPECT_EQ(answersOf(first, second, {executor, nullptr}, params), expected)
             << size.width << 'x' << size.height;
       });
     }
