@@ -23,7 +23,7 @@ void ArcTable::clear() {
   used_ = 0;
 }
 
-void ArcTable::add(uint16_t a, uint16_t b, uint32_t contrast) {
+void ArcTable::add(uint16_t a, uint16_t b, uint32_t borderPx, uint32_t contrast) {
   if (a > b) std::swap(a, b);
   const uint32_t key = uint32_t{a} << 16 | b;
   size_t slot = slotOf(key);
@@ -36,7 +36,7 @@ void ArcTable::add(uint16_t a, uint16_t b, uint32_t contrast) {
     arcs_[slot] = {a, b, 0, 0};
     ++used_;
   }
-  ++arcs_[slot].borderPx;
+  arcs_[slot].borderPx += borderPx;
   arcs_[slot].contrast += contrast;
 }
 

@@ -15,8 +15,8 @@ namespace rg {
 class ArcTable {
  public:
   void clear();
-  /// a, b: two different labels, none of them kNoRegion.
-  void add(uint16_t a, uint16_t b, uint32_t contrast);
+  /// borderPx pairs of two different labels, none of them kNoRegion; contrast: over all pairs.
+  void add(uint16_t a, uint16_t b, uint32_t borderPx, uint32_t contrast);
   /// In no promised order.
   void appendTo(std::vector<Arc>& arcs) const;
 

@@ -2,6 +2,7 @@
 #include "core/motion_refinement.hpp"
 
 #include "core/pixel.hpp"
+#include "core/simd/motion_rows.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -27,29 +28,14 @@ int64_t squaredDistance(Point a, Point b) {
 }
 
 /// The binomial mean of 3x3 pixels; the picture's border repeats.
-void smooth(ImageView<const uint8_t> from, const Executor& executor, Image<uint8_t>& across,
-            Image<uint8_t>& to) {
+void smooth(ImageView<const uint8_t> from, const Executor& executor, Image<uint8_t>& to) {
   const int width = from.width(), height = from.height();
-  across.resize(from.size);
   to.resize(from.size);
-  const auto mean = [](int a, int b, int c) {
-    return static_cast<uint8_t>((a + 2 * b + c + 2) >> 2);
-  };
   executor.forRows(height, [&](int first, int last) {
     for (int y = first; y < last; ++y) {
-      const uint8_t* row = from.row(y);
-      uint8_t* out = across.row(y);
-      out[0] = mean(row[0], row[0], row[std::min(1, width - 1)]);
-      for (int x = 1; x < width - 1; ++x) out[x] = mean(row[x - 1], row[x], row[x + 1]);
-      out[width - 1] = mean(row[std::max(width - 2, 0)], row[width - 1], row[width - 1]);
-    }
-  });
-  executor.forRows(height, [&](int first, int last) {
-    for (int y = first; y < last; ++y) {
-      const uint8_t *above = across.row(std::max(y - 1, 0)), *row = across.row(y),
-                    *below = across.row(std::min(y + 1, height - 1));
-      uint8_t* out = to.row(y);
-      for (int x = 0; x < width; ++x) out[x] = mean(above[x], row[x], below[x]);
+      const simd::ThreeRows rows{from.row(std::max(y - 1, 0)), from.row(y),
+                                 from.row(std::min(y + 1, height - 1))};
+      simd::smoothRow(rows, width, to.row(y));
     }
   });
 }
@@ -96,9 +82,9 @@ void MotionRefinement::run(const Graph& graph, const MatchedBlocks& blocks, cons
                            std::span<RegionMotion> motion) {
   graph_ = &graph;
   blocks_ = &blocks;
-  smooth(before.luma(), executor, across_, smoothBefore_);
+  smooth(before.luma(), executor, smoothBefore_);
   smoothPrevious_.build(smoothBefore_, previous.reach(), executor);
-  smooth(graph.labels->picture->luma(), executor, across_, smoothCurrent_);
+  smooth(graph.labels->picture->luma(), executor, smoothCurrent_);
   planes_ = {FitPlane{graph.labels->picture->luma(), &previous},
              FitPlane{smoothCurrent_, &smoothPrevious_}};
   alone_.resize(motion.size());

@@ -40,7 +40,7 @@ class MotionRefinement {
 
   const Graph* graph_ = nullptr;
   const MatchedBlocks* blocks_ = nullptr;
-  Image<uint8_t> across_, smoothCurrent_, smoothBefore_;
+  Image<uint8_t> smoothCurrent_, smoothBefore_;
   PaddedLuma smoothPrevious_;
   std::array<FitPlane, 2> planes_;
   std::vector<Candidate> alone_;

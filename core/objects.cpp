@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace rg {
 namespace {
@@ -37,6 +38,8 @@ MergeWeights weightsOf(const ObjectParams& params) {
 
 class CpuObjectStage final : public ObjectStage {
  public:
+  explicit CpuObjectStage(Context context) : context_(std::move(context)) {}
+
   Result<std::shared_ptr<const Objects>> process(std::shared_ptr<const Motion> motion,
                                                  const ObjectParams& params,
                                                  FrameTime time) override;
@@ -56,6 +59,7 @@ class CpuObjectStage final : public ObjectStage {
   void nameRegions(const Graph& graph, Objects& objects);
   int64_t stepTo(FrameTime time);
 
+  Context context_;
   Tracker tracker_;
   MergeScratch mergeScratch_;
   VoteScratch voteScratch_;
@@ -152,8 +156,8 @@ void CpuObjectStage::followCamera(const Motion& motion, const ObjectParams& para
   objects.cameraDx = camera.dx;
   objects.cameraDy = camera.dy;
   if (previous && previous_ && previous->size() == previous_->size())
-    findOwnMotion(motion, previous->luma(), camera, weightsOf(params).motionThreshold,
-                  ownMotionScratch_, movesOtherwise_);
+    findOwnMotion(motion, previous->luma(), {camera, weightsOf(params).motionThreshold},
+                  *context_.cpu, ownMotionScratch_, movesOtherwise_);
 }
 
 void CpuObjectStage::cutAroundMovers(std::vector<ArcEnergy>& energies, const Graph& graph) const {
@@ -320,10 +324,8 @@ Result<std::shared_ptr<const Objects>> CpuObjectStage::process(std::shared_ptr<c
 
 }  // namespace
 
-// One signature for the factories of all stages; this one needs no executor.
-// NOLINTNEXTLINE(performance-unnecessary-value-param)
-std::unique_ptr<ObjectStage> makeObjectStage(Context) {
-  return std::make_unique<CpuObjectStage>();
+std::unique_ptr<ObjectStage> makeObjectStage(Context context) {
+  return std::make_unique<CpuObjectStage>(std::move(context));
 }
 
 }  // namespace rg

@@ -2,6 +2,7 @@
 #include "core/own_motion.hpp"
 
 #include "core/pixel.hpp"
+#include "core/simd/motion_rows.hpp"
 
 #include <algorithm>
 
@@ -15,6 +16,13 @@ constexpr uint64_t kLeastGainShare = 4;  // At least a grey level for so many pi
 
 using Trial = OwnMotionScratch::Trial;
 
+/// What is given to all steps.
+struct Inputs {
+  const Motion& motion;
+  const Executor& executor;
+  RegionMotion camera;
+};
+
 /// Rows or columns of the frame that the previous frame shows as well.
 struct Range {
   int first, last;
@@ -27,26 +35,32 @@ Range visibleRange(int length, int shift) {
 }
 
 /// expected(x) = previous(x − shift), between its pixels linearly; at the border it repeats.
-void warp(ImageView<const uint8_t> previous, const RegionMotion& shift, Image<uint8_t>& expected) {
+void warp(ImageView<const uint8_t> previous, const RegionMotion& shift, const Executor& executor,
+          Image<uint8_t>& expected) {
   const auto wholeOf = [](int v) { return -((v + kMotionUnit - 1) >> kMotionFractionBits); };
   const auto partOf = [&](int v) { return -v - wholeOf(v) * kMotionUnit; };
   const int dx = wholeOf(shift.dx), dy = wholeOf(shift.dy);
   const int u = partOf(shift.dx), v = partOf(shift.dy);
   const int width = previous.width(), height = previous.height();
+  const int first = std::clamp(-dx, 0, width), last = std::clamp(width - 1 - dx, first, width);
   expected.resize(previous.size);
-  for (int y = 0; y < height; ++y) {
-    const uint8_t* above = previous.row(std::clamp(y + dy, 0, height - 1));
-    const uint8_t* below = previous.row(std::clamp(y + dy + 1, 0, height - 1));
-    uint8_t* to = expected.row(y);
-    for (int x = 0; x < width; ++x) {
-      const int left = std::clamp(x + dx, 0, width - 1),
-                right = std::clamp(x + dx + 1, 0, width - 1);
-      const int top = above[left] * (kMotionUnit - u) + above[right] * u;
-      const int low = below[left] * (kMotionUnit - u) + below[right] * u;
-      to[x] = static_cast<uint8_t>(
-          roundShift(top * (kMotionUnit - v) + low * v, 2 * kMotionFractionBits));
+  executor.forRows(height, [&](int begin, int end) {
+    for (int y = begin; y < end; ++y) {
+      const uint8_t* above = previous.row(std::clamp(y + dy, 0, height - 1));
+      const uint8_t* below = previous.row(std::clamp(y + dy + 1, 0, height - 1));
+      uint8_t* to = expected.row(y);
+      const auto repeatBorder = [&](int from, int until, int column) {
+        const uint8_t sides[] = {above[column], above[column], below[column], below[column]};
+        if (from == until) return;
+        simd::warpRow({sides, sides + 2, u, v}, 1, to + from);
+        std::fill(to + from + 1, to + until, to[from]);
+      };
+      repeatBorder(0, first, 0);
+      if (first < last)
+        simd::warpRow({above + first + dx, below + first + dx, u, v}, last - first, to + first);
+      repeatBorder(last, width, width - 1);
     }
-  }
+  });
 }
 
 Point shiftBeyond(const RegionMotion& m, const RegionMotion& camera) {
@@ -54,20 +68,26 @@ Point shiftBeyond(const RegionMotion& m, const RegionMotion& camera) {
           static_cast<int>(divideRounded(m.dy - camera.dy, kMotionUnit))};
 }
 
-/// Marks where the movers were in the previous frame.
-void hideMovers(const Labels& labels, const std::vector<uint8_t>& moves, OwnMotionScratch& s) {
-  s.hidden.resize(labels.size);
-  s.hidden.fill(kNoRegion);
-  for (int y = 0; y < labels.size.height; ++y) {
-    const uint16_t* ids = labels.ids.row(y);
-    for (int x = 0; x < labels.size.width; ++x) {
-      if (ids[x] == kNoRegion || moves[ids[x] - 1u] == 0) continue;
-      const Point from{x - s.shifts[ids[x] - 1u].x, y - s.shifts[ids[x] - 1u].y};
-      if (!boundsOf(labels.size).contains(from)) continue;
-      uint16_t& hidden = s.hidden.at(from.x, from.y);
-      hidden = std::max(hidden, ids[x]);
+/// Calls visit(first pixel, count, label) for all that the movers covered in the previous frame.
+template <class Visit>
+void forCovered(const Inputs& in, const std::vector<uint8_t>& moves, OwnMotionScratch& s,
+                const Visit& visit) {
+  const Graph& graph = *in.motion.graph;
+  in.executor.forRows(graph.size.height, [&](int begin, int end) {
+    for (size_t i = 0; i < moves.size(); ++i) {
+      if (moves[i] == 0) continue;
+      const Point shift = s.shifts[i];
+      const auto runs = graph.runs.of(i);
+      auto run = std::lower_bound(runs.begin(), runs.end(), begin + shift.y,
+                                  [](const RegionRun& r, int y) { return r.y < y; });
+      for (; run != runs.end() && run->y < end + shift.y; ++run) {
+        const int first = std::max(run->begin - shift.x, 0);
+        const int last = std::min(run->end - shift.x, graph.size.width);
+        if (first < last)
+          visit(s.hidden.row(run->y - shift.y) + first, last - first, static_cast<uint16_t>(i + 1));
+      }
     }
-  }
+  });
 }
 
 /// Whether what covered a pixel keeps a region from being seen there: what moves along with it does
@@ -80,29 +100,57 @@ bool isHidden(uint16_t by, Point shift, const std::vector<uint8_t>& moves, uint1
          std::max(absDiff(other.x, shift.x), absDiff(other.y, shift.y)) > 1;
 }
 
-/// Measures each region that has a shift to try, on pixels that can be compared with and without.
-void measure(const Motion& motion, const RegionMotion& camera, const std::vector<uint8_t>& moves,
-             OwnMotionScratch& s) {
-  const Labels& labels = *motion.graph->labels;
-  const ImageView<const uint8_t> luma = labels.picture->luma();
-  const Range columns = visibleRange(motion.size.width, camera.dx);
-  const Range rows = visibleRange(motion.size.height, camera.dy);
-  for (int y = rows.first; y < rows.last; ++y) {
-    const uint16_t *ids = labels.ids.row(y), *hidden = s.hidden.row(y);
-    const uint8_t *now = luma.row(y), *expected = s.expected.row(y);
-    for (int x = columns.first; x < columns.last; ++x) {
-      if (ids[x] == kNoRegion) continue;
-      Trial& trial = s.trials[ids[x] - 1u];
-      const Point from{x - trial.shift.x, y - trial.shift.y};
-      if (trial.shift == Point{} || from.x < columns.first || from.x >= columns.last ||
-          from.y < rows.first || from.y >= rows.last ||
-          isHidden(hidden[x], trial.shift, moves, ids[x], s))
-        continue;
-      trial.still += static_cast<uint64_t>(absDiff(now[x], expected[x]));
-      trial.moved += static_cast<uint64_t>(absDiff(now[x], s.expected.at(from.x, from.y)));
-      ++trial.pixels;
-    }
+/// Calls visit(first, last) for the parts of a row's columns that nothing hides from a region.
+template <class Visit, class IsHiding>
+void forVisible(const uint16_t* hidden, Range columns, const IsHiding& isHiding,
+                const Visit& visit) {
+  const int count = columns.last - columns.first;
+  if (count > 0 && !simd::isAnySet(hidden + columns.first, count))
+    return visit(columns.first, columns.last);
+  for (int first = columns.first; first < columns.last;) {
+    int last = first + 1;
+    while (last < columns.last && hidden[last] == hidden[first]) ++last;
+    if (!isHiding(hidden[first])) visit(first, last);
+    first = last;
   }
+}
+
+/// Compares a region, where it can be compared with and without the shift.
+void compare(const Inputs& in, const std::vector<uint8_t>& moves, size_t region,
+             OwnMotionScratch& s) {
+  const Graph& graph = *in.motion.graph;
+  const ImageView<const uint8_t> luma = graph.labels->picture->luma();
+  const Range columns = visibleRange(graph.size.width, in.camera.dx);
+  const Range rows = visibleRange(graph.size.height, in.camera.dy);
+  Trial& trial = s.trials[region];
+  const Point shift = trial.shift;
+  const auto label = static_cast<uint16_t>(region + 1);
+  const auto isHiding = [&](uint16_t by) { return isHidden(by, shift, moves, label, s); };
+  for (const RegionRun& run : graph.runs.of(region)) {
+    const int y = run.y, from = y - shift.y;
+    if (y < rows.first || y >= rows.last || from < rows.first || from >= rows.last) continue;
+    const Range seen{std::max({int{run.begin}, columns.first, columns.first + shift.x}),
+                     std::min({int{run.end}, columns.last, columns.last + shift.x})};
+    const uint8_t *now = luma.row(y), *still = s.expected.row(y), *moved = s.expected.row(from);
+    forVisible(s.hidden.row(y), seen, isHiding, [&](int first, int last) {
+      const simd::DifferenceSums sums = simd::sumDifferences(
+          {now + first, still + first, moved + (first - shift.x)}, last - first);
+      trial.still += sums.still;
+      trial.moved += sums.moved;
+      trial.pixels += static_cast<uint64_t>(last - first);
+    });
+  }
+}
+
+/// Measures each region that has a shift to try, on pixels that can be compared with and without.
+void measure(const Inputs& in, const std::vector<uint8_t>& moves, OwnMotionScratch& s) {
+  forCovered(in, moves, s, simd::raiseRow);
+  in.executor.forEach(static_cast<int>(s.trials.size()), [&](int i) {
+    const auto region = static_cast<size_t>(i);
+    if (s.trials[region].shift != Point{}) compare(in, moves, region, s);
+  });
+  forCovered(in, moves, s,
+             [](uint16_t* hidden, int count, uint16_t) { std::fill_n(hidden, count, kNoRegion); });
 }
 
 /// Whether `better` explains the pixels better than `worse`, beyond what noise may do.
@@ -135,43 +183,45 @@ void measureBorders(const Graph& graph, const std::vector<uint8_t>& moves, OwnMo
   }
 }
 
-/// Tries each region's own vector; twice, as the first movers show which ground was hidden.
-void tryOwnVectors(const Motion& motion, const RegionMotion& camera, int32_t threshold,
-                   OwnMotionScratch& s, std::vector<uint8_t>& moves) {
-  const size_t count = motion.regions.size();
-  s.shifts.assign(count, {});
-  for (size_t i = 0; i < count; ++i) {
-    const RegionMotion& m = motion.regions[i];
-    const int64_t dx = m.dx - camera.dx, dy = m.dy - camera.dy;
-    if (dx * dx + dy * dy > int64_t{threshold} * threshold) s.shifts[i] = shiftBeyond(m, camera);
+/// The whole-pixel shift of each region that moves otherwise than the camera. True if any does.
+bool findShifts(const Inputs& in, int32_t threshold, std::vector<Point>& shifts) {
+  const std::vector<RegionMotion>& regions = in.motion.regions;
+  shifts.assign(regions.size(), {});
+  for (size_t i = 0; i < regions.size(); ++i) {
+    const int64_t dx = regions[i].dx - in.camera.dx, dy = regions[i].dy - in.camera.dy;
+    if (dx * dx + dy * dy > int64_t{threshold} * threshold)
+      shifts[i] = shiftBeyond(regions[i], in.camera);
   }
-  moves.assign(count, 0);
+  return std::any_of(shifts.begin(), shifts.end(), [](Point p) { return p != Point{}; });
+}
+
+/// Tries each region's own vector; twice, as the first movers show which ground was hidden.
+void tryOwnVectors(const Inputs& in, OwnMotionScratch& s, std::vector<uint8_t>& moves) {
+  const size_t count = moves.size();
   for (int round = 0; round < 2; ++round) {
-    hideMovers(*motion.graph->labels, moves, s);
     s.trials.assign(count, {});
     for (size_t i = 0; i < count; ++i) s.trials[i].shift = s.shifts[i];
-    measure(motion, camera, moves, s);
+    measure(in, moves, s);
     for (size_t i = 0; i < count; ++i)
       moves[i] = isClearlyLess(s.trials[i].moved, s.trials[i].still, s.trials[i].pixels);
   }
 }
 
 /// Tries the vectors of moving neighbours on the regions that are not found to move.
-void tryNeighbours(const Motion& motion, const RegionMotion& camera, OwnMotionScratch& s,
-                   std::vector<uint8_t>& moves) {
+void tryNeighbours(const Inputs& in, OwnMotionScratch& s, std::vector<uint8_t>& moves) {
+  const Graph& graph = *in.motion.graph;
   const size_t count = moves.size();
-  measureBorders(*motion.graph, moves, s);
-  hideMovers(*motion.graph->labels, moves, s);
+  measureBorders(graph, moves, s);
   s.trials.assign(count, {});
   for (size_t i = 0; i < count; ++i)
     if (moves[i] == 0 && s.neighbour[i] != 0) s.trials[i].shift = s.shifts[s.neighbour[i] - 1];
-  measure(motion, camera, moves, s);
+  measure(in, moves, s);
   for (size_t i = 0; i < count; ++i) {
     const Trial& t = s.trials[i];
     if (t.shift == Point{}) continue;
     const bool isOpen = !isClearlyLess(t.still, t.moved, t.pixels);
-    const bool isSurrounded = 2 * uint64_t{s.movingBorder[i]} > s.border[i] &&
-                              motion.graph->regions[i].areaPx <= s.movingArea[i];
+    const bool isSurrounded =
+        2 * uint64_t{s.movingBorder[i]} > s.border[i] && graph.regions[i].areaPx <= s.movingArea[i];
     if (isClearlyLess(t.moved, t.still, t.pixels) || (isOpen && isSurrounded)) {
       moves[i] = 1;
       s.shifts[i] = t.shift;
@@ -182,12 +232,18 @@ void tryNeighbours(const Motion& motion, const RegionMotion& camera, OwnMotionSc
 }  // namespace
 
 void findOwnMotion(const Motion& motion, ImageView<const uint8_t> previous,
-                   const RegionMotion& camera, int32_t threshold, OwnMotionScratch& s,
+                   const OwnMotionRules& rules, const Executor& executor, OwnMotionScratch& s,
                    std::vector<uint8_t>& movesOtherwise) {
-  warp(previous, camera, s.expected);
-  tryOwnVectors(motion, camera, threshold, s, movesOtherwise);
-  for (int round = 0; round < kNeighbourRounds; ++round)
-    tryNeighbours(motion, camera, s, movesOtherwise);
+  const Inputs in{motion, executor, rules.camera};
+  movesOtherwise.assign(motion.regions.size(), 0);
+  if (!findShifts(in, rules.threshold, s.shifts)) return;
+  if (s.hidden.size() != motion.size) {
+    s.hidden.resize(motion.size);
+    s.hidden.fill(kNoRegion);
+  }
+  warp(previous, rules.camera, executor, s.expected);
+  tryOwnVectors(in, s, movesOtherwise);
+  for (int round = 0; round < kNeighbourRounds; ++round) tryNeighbours(in, s, movesOtherwise);
 }
 
 }  // namespace rg

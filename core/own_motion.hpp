@@ -11,6 +11,7 @@
 // over pixels; rounds read the state before them.
 #pragma once
 
+#include "core/executor.hpp"
 #include "core/image.hpp"
 #include "core/region_motion.hpp"
 
@@ -27,7 +28,8 @@ struct OwnMotionScratch {
     uint64_t pixels = 0;  ///< over so many pixels.
   };
   Image<uint8_t> expected;    ///< The previous frame as the camera's motion moves it.
-  Image<uint16_t> hidden;     ///< Its pixels that a mover covered: the label of that, else 0.
+  Image<uint16_t> hidden;     ///< Its pixels that a mover covered: the label of that, else 0;
+                              ///< all 0 between measurements.
   std::vector<Point> shifts;  ///< Of each mover.
   std::vector<Trial> trials;
   std::vector<uint32_t> border, movingBorder, longest;  ///< Of each region, in pixels.
@@ -35,11 +37,17 @@ struct OwnMotionScratch {
   std::vector<uint32_t> neighbour;                      ///< 1 + region at the longest; 0 = none.
 };
 
-/// previous: the luma that `motion` was measured against; threshold: vectors that differ from the
-/// camera's by no more are the camera's, in 1/16 px. Result: for each region 1 if it moves
-/// otherwise, 0 if not.
+struct OwnMotionRules {
+  RegionMotion camera;
+  int32_t threshold;  ///< Vectors that differ from the camera's by no more are the camera's, in
+                      ///< 1/16 px.
+};
+
+/// previous: the luma that `motion` was measured against. Result: for each region 1 if it moves
+/// otherwise, 0 if not. Cost: follows the pixels of the movers and of their neighbours; where no
+/// vector differs from the camera's, nothing is compared.
 void findOwnMotion(const Motion& motion, ImageView<const uint8_t> previous,
-                   const RegionMotion& camera, int32_t threshold, OwnMotionScratch& scratch,
+                   const OwnMotionRules& rules, const Executor& executor, OwnMotionScratch& scratch,
                    std::vector<uint8_t>& movesOtherwise);
 
 }  // namespace rg

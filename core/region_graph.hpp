@@ -5,6 +5,7 @@
 #pragma once
 
 #include "core/geometry.hpp"
+#include "core/region_runs.hpp"
 #include "core/result.hpp"
 #include "core/segmentation.hpp"
 #include "core/stage.hpp"
@@ -50,6 +51,7 @@ struct Graph {
   std::shared_ptr<const Labels> labels;
   std::vector<Region> regions;
   std::vector<Arc> arcs;
+  RegionRuns runs;  ///< Of the regions' pixels.
 
   void dropSources() { labels.reset(); }
 };

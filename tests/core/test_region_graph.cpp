@@ -65,6 +65,17 @@ TEST(RegionGraph, EightNeighboursCountTheDiagonals) {
   EXPECT_EQ(arcs[2].borderPx, 2u);
 }
 
+TEST(RegionGraph, RunsHoldThePixelsOfEachRegion) {
+  const auto graph = build(threeRegions());
+  const auto runsOf = [&](size_t region) {
+    const auto runs = graph->runs.of(region);
+    return std::vector(runs.begin(), runs.end());
+  };
+  EXPECT_EQ(runsOf(0), (std::vector<RegionRun>{{0, 0, 2}, {1, 0, 1}}));
+  EXPECT_EQ(runsOf(1), (std::vector<RegionRun>{{0, 2, 3}, {1, 2, 3}}));
+  EXPECT_EQ(runsOf(2), (std::vector<RegionRun>{{1, 1, 2}}));
+}
+
 TEST(RegionGraph, LabelZeroHasNeitherNodeNorArc) {
   const auto graph = build(label(colourNoise({9, 1}, 1), 2, [](int x, int) {
     return x < 3 ? 1 : x < 5 ? 0 : 2;
@@ -142,6 +153,17 @@ TEST(RegionGraph, ThreadsChangeNothing) {
     EXPECT_EQ(a.colour, b.colour);
   }
   expectPairs(two->arcs, *labels, Connectivity::Eight);
+  EXPECT_EQ(one->runs.starts, two->runs.starts);
+  EXPECT_EQ(one->runs.list, two->runs.list);
+  Image<uint16_t> painted(labels->size);
+  painted.fill(kNoRegion);
+  for (size_t i = 0; i < two->regions.size(); ++i)
+    for (const RegionRun& run : two->runs.of(i))
+      std::fill(painted.row(run.y) + run.begin, painted.row(run.y) + run.end,
+                static_cast<uint16_t>(i + 1));
+  for (int y = 0; y < labels->size.height; ++y)
+    for (int x = 0; x < labels->size.width; ++x)
+      ASSERT_EQ(painted.at(x, y), labels->ids.at(x, y)) << x << ", " << y;
 }
 
 TEST(RegionGraph, SkippedGivesSkipped) {
