@@ -70,13 +70,14 @@ Box bestPlace(const Evidence& e, const FitTask& task, FitScratch& s) {
     for (int dx = -task.reachX; dx <= task.reachX; ++dx) {
       const Box place{box.x + dx, box.y + dy, box.width, box.height};
       const Box core{place.x + margin, place.y, place.width - 2 * margin, place.height};
+      const int64_t gain = int64_t{sums.inside(place)} + sums.inside(core);
+      if (gain < -std::get<0>(bestKey)) continue;
       // A shift by half the width costs a quarter of what a full box gains.
       const int64_t far = int64_t{kForegroundGain} *
                           (int64_t{dx} * dx * box.height * box.height +
                            int64_t{dy} * dy * box.width * box.width * 4) /
                           std::max<int64_t>(box.area(), 1);
-      const int64_t score = sums.inside(place) + sums.inside(core) - far;
-      const std::tuple key{-score, dx * dx + dy * dy, dy, dx};
+      const std::tuple key{far - gain, dx * dx + dy * dy, dy, dx};
       if (key < bestKey) {
         bestKey = key;
         best = place;

@@ -2,6 +2,7 @@
 #include "core/evidence.hpp"
 
 #include "core/appearance.hpp"
+#include "core/simd/run_rows.hpp"
 
 #include <algorithm>
 
@@ -55,6 +56,18 @@ uint32_t labelParts(std::span<uint32_t> columns, uint32_t own, uint32_t count,
   return count;
 }
 
+/// Calls visit(x, y, cell) for the cells of which the middle lies in a run of pixels.
+template <class Visit>
+void forSamples(const Evidence& e, const RegionRun& run, const Visit& visit) {
+  const int cy = std::min(run.y / e.stepPx, e.grid.height - 1);
+  if (e.middleOf(0, cy).y != run.y) return;
+  for (int cx = run.begin / e.stepPx; cx < e.grid.width; ++cx) {
+    const int x = e.middleOf(cx, cy).x;
+    if (x >= run.end) return;
+    if (x >= run.begin) visit(x, int{run.y}, e.at(cx, cy));
+  }
+}
+
 /// Raster neighbours that come before a cell, and the one to its right on the row above.
 constexpr Point kEarlier[] = {{-1, 0}, {-1, -1}, {0, -1}, {1, -1}};
 
@@ -69,61 +82,67 @@ void gather(const Graph& graph, std::span<const uint32_t> groupOf,
   e.group.assign(cells, 0);
   e.bin.assign(cells, kUnknownBin);
   e.cellsOf.assign(isBackground.size(), 0);
-  const Labels& labels = *graph.labels;
-  const Picture* picture = labels.picture.get();
-  for (int cy = 0; cy < e.grid.height; ++cy) {
-    const uint16_t* ids = labels.ids.row(e.middleOf(0, cy).y);
-    for (int cx = 0; cx < e.grid.width; ++cx) {
-      const auto [x, y] = e.middleOf(cx, cy);
-      if (ids[x] == kNoRegion || ids[x] > groupOf.size()) continue;
-      const uint32_t group = groupOf[ids[x] - 1u];
-      if (isBackground[group]) continue;
-      e.group[e.at(cx, cy)] = static_cast<uint16_t>(group + 1);
+  const Picture* picture = graph.labels->picture.get();
+  for (size_t region = 0; region < groupOf.size(); ++region) {
+    const uint32_t group = groupOf[region];
+    if (isBackground[group]) continue;
+    const auto sample = [&](int x, int y, size_t cell) {
+      e.group[cell] = static_cast<uint16_t>(group + 1);
       ++e.cellsOf[group];
       if (picture)
-        e.bin[e.at(cx, cy)] =
+        e.bin[cell] =
             colourBin(picture->red().at(x, y), picture->green().at(x, y), picture->blue().at(x, y));
-    }
+    };
+    for (const RegionRun& run : graph.runs.of(region)) forSamples(e, run, sample);
+  }
+  e.listRuns();
+}
+
+void Evidence::listRuns() {
+  runs.clear();
+  std::vector<uint16_t>& begins = runBegins;
+  begins.resize(static_cast<size_t>(grid.width) + 1);
+  for (int y = 0; y < grid.height && grid.width > 0; ++y) {
+    const uint16_t* row = group.data() + at(0, y);
+    const int count = simd::findRuns(row, grid.width, begins.data());
+    for (size_t i = 0; i < static_cast<size_t>(count); ++i)
+      if (row[begins[i]] != 0) runs.push_back({static_cast<uint16_t>(y), begins[i], begins[i + 1]});
   }
 }
 
 void findPieces(const Evidence& e, std::span<const uint16_t> owner, PieceScratch& s,
                 std::vector<Piece>& pieces) {
-  const auto isFree = [&](size_t cell) { return e.group[cell] != 0 && owner[cell] == 0; };
   s.label.assign(e.group.size(), 0);
   s.parent.assign(1, 0);
-  for (int y = 0; y < e.grid.height; ++y)
-    for (int x = 0; x < e.grid.width; ++x) {
-      const size_t cell = e.at(x, y);
-      if (!isFree(cell)) continue;
-      uint32_t label = 0;
-      for (const Point& d : kEarlier) {
-        if (x + d.x < 0 || x + d.x >= e.grid.width || y + d.y < 0) continue;
-        const uint32_t other = s.label[e.at(x + d.x, y + d.y)];
-        if (other == 0) continue;
-        if (label != 0) join(s.parent, label, other);
-        label = label == 0 ? other : std::min(label, other);
-      }
-      if (label == 0) {
-        label = static_cast<uint32_t>(s.parent.size());
-        s.parent.push_back(label);
-      }
-      s.label[cell] = label;
+  e.forForeground([&](size_t cell, int x, int y) {
+    if (owner[cell] != 0) return;
+    uint32_t label = 0;
+    for (const Point& d : kEarlier) {
+      if (x + d.x < 0 || x + d.x >= e.grid.width || y + d.y < 0) continue;
+      const uint32_t other = s.label[e.at(x + d.x, y + d.y)];
+      if (other == 0) continue;
+      if (label != 0) join(s.parent, label, other);
+      label = label == 0 ? other : std::min(label, other);
     }
+    if (label == 0) {
+      label = static_cast<uint32_t>(s.parent.size());
+      s.parent.push_back(label);
+    }
+    s.label[cell] = label;
+  });
   // Roots come before their members, so numbers in the order of the roots are raster order.
   uint32_t count = 0;
   for (uint32_t i = 1; i < s.parent.size(); ++i)
     s.parent[i] = s.parent[i] == i ? ++count : s.parent[s.parent[i]];
   pieces.assign(count, {});
-  for (int y = 0; y < e.grid.height; ++y)
-    for (int x = 0; x < e.grid.width; ++x) {
-      uint32_t& label = s.label[e.at(x, y)];
-      if (label == 0) continue;
-      label = s.parent[label];
-      Piece& piece = pieces[label - 1];
-      ++piece.cells;
-      piece.box = unite(piece.box, {x, y, 1, 1});
-    }
+  e.forForeground([&](size_t cell, int x, int y) {
+    uint32_t& label = s.label[cell];
+    if (label == 0) return;
+    label = s.parent[label];
+    Piece& piece = pieces[label - 1];
+    ++piece.cells;
+    piece.box = unite(piece.box, {x, y, 1, 1});
+  });
 }
 
 void cutPieces(const Evidence& e, PieceScratch& s, std::vector<Piece>& pieces) {
@@ -136,9 +155,9 @@ void cutPieces(const Evidence& e, PieceScratch& s, std::vector<Piece>& pieces) {
     return s.firstColumn[label - 1] + static_cast<uint32_t>(x - pieces[label - 1].box.x);
   };
   const auto forCells = [&](auto&& visit) {
-    for (int y = 0; y < e.grid.height; ++y)
-      for (int x = 0; x < e.grid.width; ++x)
-        if (uint32_t& label = s.label[e.at(x, y)]; label != 0) visit(label, x, y);
+    e.forForeground([&](size_t cell, int x, int y) {
+      if (uint32_t& label = s.label[cell]; label != 0) visit(label, x, y);
+    });
   };
   forCells([&](uint32_t label, int x, int) { ++s.columns[columnOf(label, x)]; });
   const auto whole = static_cast<uint32_t>(pieces.size());

@@ -7,6 +7,7 @@
 
 #include "core/geometry.hpp"
 #include "core/mrf_merge.hpp"
+#include "core/region_runs.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -22,8 +23,11 @@ struct Evidence {
   std::vector<uint16_t> group;    ///< Of each cell: 1 + group, 0 = background. Row by row.
   std::vector<uint8_t> bin;       ///< Colour bin (core/appearance.hpp), where group is not 0.
   std::vector<uint32_t> cellsOf;  ///< Cells of each group.
-  Point camera;                   ///< Its motion since the previous frame, in 1/16 px.
-  bool showsMovers = false;       ///< What stands still is background, whatever it is.
+  std::vector<RegionRun> runs;  ///< Of the cells that are no background, of one group each. Row by
+                                ///< row: what walks them costs nothing where nothing is.
+  std::vector<uint16_t> runBegins;  ///< Scratch.
+  Point camera;                     ///< Its motion since the previous frame, in 1/16 px.
+  bool showsMovers = false;         ///< What stands still is background, whatever it is.
 
   /// The pixel that cell (x, y) shows.
   [[nodiscard]] Point middleOf(int x, int y) const {
@@ -33,6 +37,14 @@ struct Evidence {
   [[nodiscard]] size_t at(int x, int y) const {
     return static_cast<size_t>(y) * static_cast<size_t>(grid.width) + static_cast<size_t>(x);
   }
+  /// Calls visit(index, x, y) for the cells that are no background, in raster order.
+  template <class Visit>
+  void forForeground(Visit&& visit) const {
+    for (const RegionRun& run : runs)
+      for (int x = run.begin; x < run.end; ++x) visit(at(x, run.y), x, int{run.y});
+  }
+  /// Sets `runs` to what `group` and `grid` say.
+  void listRuns();
 };
 
 /// Samples the labels. Groups for which isBackground is set count as background.

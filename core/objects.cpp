@@ -55,6 +55,7 @@ class CpuObjectStage final : public ObjectStage {
   void markSurroundings(const Graph& graph, const Objects& objects);
   void markBackground(const Graph& graph, const Objects& objects);
   void paint(const Graph& graph, Objects& objects);
+  void paintRow(int y, const RegionRun& cells, const Graph& graph, Objects& objects);
   void describe(const Graph& graph, bool hasTime, Objects& objects);
   void nameRegions(const Graph& graph, Objects& objects);
   int64_t stepTo(FrameTime time);
@@ -195,34 +196,45 @@ void CpuObjectStage::markBackground(const Graph& graph, const Objects& objects) 
 
 /// Gives each pixel to an object: by its cell, and where that has no owner, not at all.
 void CpuObjectStage::paint(const Graph& graph, Objects& objects) {
-  const Labels& labels = *graph.labels;
-  const std::vector<uint16_t>& owner = tracker_.owner();
-  const size_t tracks = tracker_.tracks().size();
-  sums_.assign(tracks, {});
+  sums_.assign(tracker_.tracks().size(), {});
   objects.slots.resize(graph.size);
-  const Picture* picture = labels.picture.get();
+  context_.cpu->forRows(graph.size.height, [&](int first, int last) {
+    for (int y = first; y < last; ++y)
+      std::fill_n(objects.slots.row(y), graph.size.width, uint16_t{0});
+  });
   const int step = evidence_.stepPx;
-  for (int y = 0; y < graph.size.height; ++y) {
-    const uint16_t* ids = labels.ids.row(y);
-    uint16_t* slots = objects.slots.row(y);
-    std::fill_n(slots, graph.size.width, uint16_t{0});
-    const size_t first = evidence_.at(0, y / step);
-    for (int cell = 0; cell < evidence_.grid.width; ++cell) {
-      const uint16_t slot = owner[first + static_cast<size_t>(cell)];
-      if (slot == 0 || evidence_.group[first + static_cast<size_t>(cell)] == 0) continue;
-      Sums& sum = sums_[slot - 1u];
-      const int end = std::min((cell + 1) * step, graph.size.width);
-      for (int x = cell * step; x < end; ++x) {
-        if (ids[x] == kNoRegion || isBackground_[objects.regionGroup[ids[x] - 1u]]) continue;
-        slots[x] = slot;
-        if (sum.count++ == 0) sum.first = {x, y};
-        sum.x += static_cast<uint64_t>(x);
-        sum.y += static_cast<uint64_t>(y);
-        if (!picture) continue;
-        sum.red += picture->red().at(x, y);
-        sum.green += picture->green().at(x, y);
-        sum.blue += picture->blue().at(x, y);
-      }
+  for (auto run = evidence_.runs.begin(); run != evidence_.runs.end();) {
+    const auto end = std::find_if(run, evidence_.runs.end(),
+                                  [&](const RegionRun& other) { return other.y != run->y; });
+    const int bottom = std::min((run->y + 1) * step, graph.size.height);
+    for (int y = run->y * step; y < bottom; ++y)
+      for (auto cells = run; cells != end; ++cells) paintRow(y, *cells, graph, objects);
+    run = end;
+  }
+}
+
+/// A row of the pixels of some cells.
+void CpuObjectStage::paintRow(int y, const RegionRun& cells, const Graph& graph, Objects& objects) {
+  const Labels& labels = *graph.labels;
+  const Picture* picture = labels.picture.get();
+  const uint16_t* ids = labels.ids.row(y);
+  uint16_t* slots = objects.slots.row(y);
+  const int step = evidence_.stepPx;
+  for (int cell = cells.begin; cell < cells.end; ++cell) {
+    const uint16_t slot = tracker_.owner()[evidence_.at(cell, cells.y)];
+    if (slot == 0) continue;
+    Sums& sum = sums_[slot - 1u];
+    const int end = std::min((cell + 1) * step, graph.size.width);
+    for (int x = cell * step; x < end; ++x) {
+      if (ids[x] == kNoRegion || isBackground_[objects.regionGroup[ids[x] - 1u]]) continue;
+      slots[x] = slot;
+      if (sum.count++ == 0) sum.first = {x, y};
+      sum.x += static_cast<uint64_t>(x);
+      sum.y += static_cast<uint64_t>(y);
+      if (!picture) continue;
+      sum.red += picture->red().at(x, y);
+      sum.green += picture->green().at(x, y);
+      sum.blue += picture->blue().at(x, y);
     }
   }
 }

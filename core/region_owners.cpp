@@ -11,14 +11,15 @@ namespace {
 void listCells(const Evidence& grid, std::span<const uint16_t> owner, size_t tracks,
                RegionOwnerScratch& s) {
   s.firstCell.assign(tracks + 2, 0);
-  for (const uint16_t track : owner)
-    if (track != 0) ++s.firstCell[track + 1u];
+  grid.forForeground([&](size_t cell, int, int) {
+    if (const uint16_t track = owner[cell]; track != 0) ++s.firstCell[track + 1u];
+  });
   std::partial_sum(s.firstCell.begin(), s.firstCell.end(), s.firstCell.begin());
   s.cells.resize(s.firstCell.back());
-  for (int y = 0; y < grid.grid.height; ++y)
-    for (int x = 0; x < grid.grid.width; ++x)
-      if (const uint16_t track = owner[grid.at(x, y)]; track != 0)
-        s.cells[s.firstCell[track]++] = grid.middleOf(x, y);
+  grid.forForeground([&](size_t cell, int x, int y) {
+    if (const uint16_t track = owner[cell]; track != 0)
+      s.cells[s.firstCell[track]++] = grid.middleOf(x, y);
+  });
 }
 
 uint16_t labelAt(const Labels& labels, Point p) {

@@ -158,7 +158,7 @@ void Tracker::update(const Evidence& evidence, std::span<const Group> groups, in
   sight(evidence);
   meet();
   for (size_t i = 0; i < tracks_.size(); ++i) correct(i, stepNs);
-  rejoin();
+  rejoin(evidence);
   for (size_t i = 0; i < sightings_.size(); ++i) learnSize(i, stepNs, evidence);
   learnScale(evidence);
   joinDoubles(stepNs);
@@ -202,8 +202,10 @@ void Tracker::lookForTracks(const Evidence& e) {
   }
   fitBoxes(e, tasks_, fitScratch_);
   assignCells(e, tasks_, owner_);
-  for (uint16_t& owner : owner_)
+  e.forForeground([&](size_t index, int, int) {
+    uint16_t& owner = owner_[index];
     if (owner != 0) owner = static_cast<uint16_t>(taskTrack_[owner - 1u] + 1);
+  });
   sightings_.assign(tracks_.size(), {});
   for (size_t t = 0; t < tasks_.size(); ++t) sightings_[taskTrack_[t]].task = static_cast<int>(t);
 }

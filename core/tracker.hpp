@@ -162,9 +162,9 @@ class Tracker {
   void findNewcomers(const Evidence& evidence, const TrackerParams& params);
   void describeNewcomers(const Evidence& evidence);
   void giveFragments(const Evidence& evidence);
-  void giveNewcomers();
+  void giveNewcomers(const Evidence& evidence);
   void dropSmall(const Evidence& evidence, const TrackerParams& params);
-  void rejoin();
+  void rejoin(const Evidence& evidence);
   [[nodiscard]] int64_t rejoinCost(const Track& track, const Newcomer& newcomer) const;
   [[nodiscard]] int likeness(const Track& track, const Newcomer& newcomer) const;
   void comeBack(Track& track, const Newcomer& newcomer) const;

@@ -66,56 +66,51 @@ void Tracker::findBlobs(const Evidence& e) {
 /// beside it and is about as high.
 void Tracker::giveBlobs(const Evidence& e) {
   if (scale_.isUniform()) return;
-  for (size_t cell = 0; cell < owner_.size(); ++cell) {
+  e.forForeground([&](size_t cell, int, int) {
     const uint32_t blob = blobScratch_.label[cell];
     const uint16_t owner = owner_[cell];
-    if (blob == 0 || owner == 0) continue;
+    if (blob == 0 || owner == 0) return;
     const uint32_t main = blobOf_[owner - 1u];
-    if (main == blob) continue;
+    if (main == blob) return;
     const Box &mine = blobs_[main - 1].box, &other = blobs_[blob - 1].box;
-    if (!standBeside(mine, other)) continue;
+    if (!standBeside(mine, other)) return;
     sightings_[owner - 1u].isParted = true;
     const Track& track = tracks_[owner - 1u];
     if (!isSizeKnown(track) || track.partedNs > kPartedNs) owner_[cell] = 0;
-  }
+  });
   spreadOwners(e);
 }
 
 /// Two passes over the grid, each handing owners on with a distance of 3 straight and 4 diagonally.
 void Tracker::spreadOwners(const Evidence& e) {
   constexpr uint16_t kFar = UINT16_MAX;
-  distance_.assign(owner_.size(), kFar);
-  for (size_t cell = 0; cell < owner_.size(); ++cell)
-    if (owner_[cell] != 0) distance_[cell] = 0;
-  const auto pass = [&](int direction) {
+  distance_.resize(owner_.size());
+  e.forForeground([&](size_t cell, int, int) { distance_[cell] = owner_[cell] != 0 ? 0 : kFar; });
+  const auto take = [&](int direction, int x, int y) {
+    const size_t cell = e.at(x, y);
     const Point sources[] = {{-direction, 0}, {-1, -direction}, {0, -direction}, {1, -direction}};
-    const int count = e.grid.width * e.grid.height;
-    for (int i = 0; i < count; ++i) {
-      const int at = direction > 0 ? i : count - 1 - i;
-      const auto cell = static_cast<size_t>(at);
-      if (e.group[cell] == 0) continue;
-      const int x = at % e.grid.width, y = at / e.grid.width;
-      for (const Point& d : sources) {
-        if (!boundsOf(e.grid).contains({x + d.x, y + d.y})) continue;
-        const size_t other = e.at(x + d.x, y + d.y);
-        const uint32_t far = distance_[other] + (d.x != 0 && d.y != 0 ? 4u : 3u);
-        if (blobScratch_.label[other] != blobScratch_.label[cell] || far >= distance_[cell])
-          continue;
-        distance_[cell] = static_cast<uint16_t>(far);
-        owner_[cell] = owner_[other];
-      }
+    for (const Point& d : sources) {
+      if (!boundsOf(e.grid).contains({x + d.x, y + d.y})) continue;
+      const size_t other = e.at(x + d.x, y + d.y);
+      if (blobScratch_.label[other] != blobScratch_.label[cell]) continue;
+      const uint32_t far = distance_[other] + (d.x != 0 && d.y != 0 ? 4u : 3u);
+      if (far >= distance_[cell]) continue;
+      distance_[cell] = static_cast<uint16_t>(far);
+      owner_[cell] = owner_[other];
     }
   };
-  pass(1);
-  pass(-1);
+  e.forForeground([&](size_t, int x, int y) { take(1, x, y); });
+  for (auto run = e.runs.rbegin(); run != e.runs.rend(); ++run)
+    for (int x = run->end; x-- > run->begin;) take(-1, x, run->y);
 }
 
 /// What sticks out of a fitted box (an arm, a long stride) goes with its group, when most of the
 /// group belongs to one track. The groups of which a track has most are what is seen of it.
 void Tracker::giveGroups(const Evidence& e, std::span<const Group> groups) {
   const auto vote = [&](auto&& count) {
-    for (size_t cell = 0; cell < owner_.size(); ++cell)
+    e.forForeground([&](size_t cell, int, int) {
       if (owner_[cell] != 0) count(e.group[cell] - 1u, owner_[cell]);
+    });
   };
   findMajorities(groups.size(), majorities_, vote);
   for (size_t t = 0; t < tasks_.size(); ++t) {

@@ -93,38 +93,36 @@ void Tracker::giveFragments(const Evidence& e) {
       newcomer.cells = 0;
     }
   }
-  giveNewcomers();
+  giveNewcomers(e);
 }
 
 /// Cells of the newcomers that have found a track go to it.
-void Tracker::giveNewcomers() {
-  for (size_t cell = 0; cell < owner_.size(); ++cell) {
+void Tracker::giveNewcomers(const Evidence& e) {
+  e.forForeground([&](size_t cell, int, int) {
     const uint32_t piece = pieceScratch_.label[cell];
-    if (piece == 0 || newcomerOf_[piece - 1] < 0) continue;
+    if (piece == 0 || newcomerOf_[piece - 1] < 0) return;
     const int track = trackOfNewcomer_[static_cast<size_t>(newcomerOf_[piece - 1])];
     if (track >= 0) owner_[cell] = static_cast<uint16_t>(track + 1);
-  }
+  });
 }
 
 /// Looks of the newcomers, and the tracks whose blob they come out of.
 void Tracker::describeNewcomers(const Evidence& e) {
   touching_.assign(newcomers_.size() * tracks_.size(), 0);
-  for (int y = 0; y < e.grid.height; ++y)
-    for (int x = 0; x < e.grid.width; ++x) {
-      const size_t cell = e.at(x, y);
-      const uint32_t piece = pieceScratch_.label[cell];
-      if (piece == 0 || newcomerOf_[piece - 1] < 0) continue;
-      const auto n = static_cast<size_t>(newcomerOf_[piece - 1]);
-      Newcomer& newcomer = newcomers_[n];
-      const int row = y * e.stepPx + e.stepPx / 2 - newcomer.box.y;
-      const int band = std::clamp(row * kBodyBands / newcomer.box.height, 0, kBodyBands - 1);
-      ++newcomer.look.bins[static_cast<size_t>(band)][e.bin[cell]];
-      for (const Point& d : {Point{1, 0}, Point{-1, 0}, Point{0, 1}, Point{0, -1}}) {
-        if (!boundsOf(e.grid).contains({x + d.x, y + d.y})) continue;
-        const uint16_t owner = owner_[e.at(x + d.x, y + d.y)];
-        if (owner != 0) ++touching_[n * tracks_.size() + owner - 1u];
-      }
+  e.forForeground([&](size_t cell, int x, int y) {
+    const uint32_t piece = pieceScratch_.label[cell];
+    if (piece == 0 || newcomerOf_[piece - 1] < 0) return;
+    const auto n = static_cast<size_t>(newcomerOf_[piece - 1]);
+    Newcomer& newcomer = newcomers_[n];
+    const int row = y * e.stepPx + e.stepPx / 2 - newcomer.box.y;
+    const int band = std::clamp(row * kBodyBands / newcomer.box.height, 0, kBodyBands - 1);
+    ++newcomer.look.bins[static_cast<size_t>(band)][e.bin[cell]];
+    for (const Point& d : {Point{1, 0}, Point{-1, 0}, Point{0, 1}, Point{0, -1}}) {
+      if (!boundsOf(e.grid).contains({x + d.x, y + d.y})) continue;
+      const uint16_t owner = owner_[e.at(x + d.x, y + d.y)];
+      if (owner != 0) ++touching_[n * tracks_.size() + owner - 1u];
     }
+  });
   for (size_t n = 0; n < newcomers_.size(); ++n) {
     Newcomer& newcomer = newcomers_[n];
     newcomer.isAtBorder = touchesBorder(newcomer.box, e.frame);
@@ -168,7 +166,7 @@ void Tracker::dropSmall(const Evidence& e, const TrackerParams& params) {
 }
 
 /// Gives newcomers to the tracks that are missing and look like them; the others begin tracks.
-void Tracker::rejoin() {
+void Tracker::rejoin(const Evidence& e) {
   std::vector<size_t>& missing = taskTrack_;
   missing.clear();
   for (size_t i = 0; i < tracks_.size(); ++i)
@@ -194,7 +192,7 @@ void Tracker::rejoin() {
     trackOfNewcomer_[n] = static_cast<int>(tracks_.size());
     begin(newcomers_[n]);
   }
-  giveNewcomers();
+  giveNewcomers(e);
 }
 
 /// 0 … 2000, or kForbidden: how unlikely it is that the newcomer is the track that is missing.

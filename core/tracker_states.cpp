@@ -209,7 +209,8 @@ void Tracker::settle(int64_t stepNs, const TrackerParams& params) {
   ended_.clear();
   trackIndex_.assign(tracks_.size(), 0);
   size_t kept = 0;
-  for (size_t i = 0; i < tracks_.size(); ++i) {
+  const size_t count = tracks_.size();
+  for (size_t i = 0; i < count; ++i) {
     Track& track = tracks_[i];
     const bool wasConfirmed = track.isConfirmed;
     settleState(track, stepNs);
@@ -231,6 +232,7 @@ void Tracker::settle(int64_t stepNs, const TrackerParams& params) {
     ++kept;
   }
   tracks_.resize(kept);
+  if (kept == count) return;
   for (uint16_t& owner : owner_)
     if (owner != 0) owner = trackIndex_[owner - 1u];
 }

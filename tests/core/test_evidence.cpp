@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/evidence.hpp"
+#include "tests/core/scenes.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -17,6 +18,7 @@ Evidence drawn(const std::vector<std::string>& rows) {
   e.frame = e.grid = {static_cast<int>(rows[0].size()), static_cast<int>(rows.size())};
   for (const std::string& row : rows)
     for (const char c : row) e.group.push_back(c == '#');
+  e.listRuns();
   return e;
 }
 
@@ -91,16 +93,19 @@ TEST(Evidence, CellsSampleTheGroupsThatAreNoBackground) {
   for (int y = 100; y < 200; ++y)
     for (int x = 100; x < 150; ++x) labels->ids.at(x, y) = 2;
   labels->count = 2;
-  Graph graph;
-  graph.size = labels->size;
-  graph.labels = labels;
+  const auto picture = scenes::paintGrey(labels->size, [](int, int) { return 9; });
+  labels->picture = picture;
+  labels->status = Status::Ok;
+  const auto graph = *makeGraphStage(scenes::contextWith(1))->process(labels, {});
   Evidence e;
-  gather(graph, std::vector<uint32_t>{0, 1}, std::vector<uint8_t>{1, 0}, e);
+  gather(*graph, std::vector<uint32_t>{0, 1}, std::vector<uint8_t>{1, 0}, e);
   EXPECT_EQ(e.stepPx, 2);
   EXPECT_EQ(e.grid, (Size{320, 240}));
   EXPECT_THAT(e.cellsOf, ElementsAre(0, 25 * 50));
   EXPECT_EQ(e.group[e.at(60, 60)], 2);
   EXPECT_EQ(e.group[e.at(10, 10)], 0);
+  EXPECT_EQ(e.runs.size(), 50u);
+  EXPECT_EQ(e.runs.front(), (RegionRun{50, 50, 75}));
 }
 
 }  // namespace

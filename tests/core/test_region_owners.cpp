@@ -24,6 +24,8 @@ std::vector<uint32_t> owners(const std::string& labels, const std::string& owner
     count = std::max<uint32_t>(count, digit(labels[x]));
     ownerOfCell.push_back(digit(owner[x]));
   }
+  grid.group.assign(owner.size(), 1);
+  grid.listRuns();
   RegionOwnerScratch scratch;
   std::vector<uint32_t> result(count);
   findRegionOwners(regions, grid, ownerOfCell, shifts, scratch, result);
