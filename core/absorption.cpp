@@ -28,13 +28,13 @@ void Absorption::run(const AbsorptionLimits& limits) {
   }
   joinBorders();
 
-  for (uint32_t area = 1; area < limits.minAreaPx;) {
+  for (uint32_t area = limits.grainPx * limits.grainPx; area < limits.minAreaPx;) {
     area = std::min(area * kLimitGrowth, limits.minAreaPx);
     do chooseAllBelow(area);
     while (mergeRound() > 0);
   }
   if (limits.minAreaPx > 1) {
-    do chooseThin();
+    do chooseThin(limits.grainPx);
     while (mergeRound() > 0);
   }
   while (regions_.size() > limits.maxRegions) {
@@ -53,8 +53,9 @@ void Absorption::chooseAllBelow(uint32_t areaPx) {
   for (size_t i = 0; i < regions_.size(); ++i) chooses_[i] = regions_[i].areaPx < areaPx;
 }
 
-// A ribbon of width w has about 2 / w pixels of border a pixel: thin is below a width of 1.5 px.
-void Absorption::chooseThin() {
+// A ribbon of width w has about 2 / w pixels of border a pixel: thin is below a width of 1.5
+// grains.
+void Absorption::chooseThin(uint32_t grainPx) {
   perimeters_.assign(regions_.size(), 0);
   for (const AbsorbedBorder& border : borders_) {
     perimeters_[border.a] += border.borderPx;
@@ -62,7 +63,7 @@ void Absorption::chooseThin() {
   }
   chooses_.resize(regions_.size());
   for (size_t i = 0; i < regions_.size(); ++i)
-    chooses_[i] = uint64_t{4} * regions_[i].areaPx < uint64_t{3} * perimeters_[i];
+    chooses_[i] = uint64_t{4} * regions_[i].areaPx < uint64_t{3} * grainPx * perimeters_[i];
 }
 
 // Of regions with a neighbour only: the others can't merge and would use up the count.

@@ -5,7 +5,7 @@
 // distance of the means by length of the common border, id); chosen pairs merge all at once, then
 // means and borders are computed anew. The limit grows from round to round, so that small ones find
 // a home before they tear others along. Then thin regions do the same: the ramp of a blurred edge
-// is a ribbon of its own colour along it.
+// is a ribbon of its own colour along it, and so are the cells that an edge crosses.
 // Determinism: choices depend on the state before the round only; sums commute.
 #pragma once
 
@@ -30,6 +30,7 @@ struct AbsorbedBorder {
 struct AbsorptionLimits {
   uint32_t minAreaPx = 1;
   uint32_t maxRegions = 1024;
+  uint32_t grainPx = 1;  ///< Side of the cells that the initial regions are made of.
 };
 
 class Absorption {
@@ -57,7 +58,7 @@ class Absorption {
   [[nodiscard]] static Mean meanOf(const AbsorbedRegion& region);
   [[nodiscard]] uint64_t mergeRound();
   void chooseAllBelow(uint32_t areaPx);
-  void chooseThin();
+  void chooseThin(uint32_t grainPx);
   void chooseSmallest(uint32_t count);
   void findBest();
   void contract();

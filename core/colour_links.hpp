@@ -1,22 +1,21 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Which neighbouring pixels grow into one region (part of stage 2).
+// Which neighbouring pixels, or cells of pixels, grow into one region (part of stage 2).
 //
-// Pixels are compared after a 3x3 binomial smoothing. Their distance is the largest difference of a
-// channel. Two 4-neighbours are linked when it is at most `similarity`, and when it is the smallest
-// that one of the two has to any neighbour (of equal ones: up, left, right, down), so that no
-// pixel stands alone. Hue guard: chromatic neighbours on both sides of the background band's limit
-// whose hues differ by more than kHueGuard count as unlike as can be.
+// Their distance is the largest difference of a channel, and none where one of them is out of scope
+// or in scope apart from the other. Two 4-neighbours are linked when it is at most `similarity`,
+// and when it is the smallest that one of the two has to any neighbour (of equal ones: up, left,
+// right, down), so that no pixel stands alone. Hue guard: chromatic neighbours on both sides of the
+// background band's limit whose hues differ by more than kHueGuard count as unlike as can be.
 // Determinism: each link depends on its neighbourhood only.
 #pragma once
 
+#include "core/colour_cells.hpp"
 #include "core/executor.hpp"
 #include "core/hue.hpp"
 #include "core/image.hpp"
-#include "core/picture.hpp"
+#include "core/row_spans.hpp"
 
-#include <array>
 #include <cstdint>
-#include <vector>
 
 namespace rg {
 
@@ -27,7 +26,7 @@ inline constexpr int kHueGuard = 48;
 enum LinkBit : uint8_t {
   kLinkedLeft = 1,
   kLinkedUp = 2,
-  kInScope = 4,
+  kIsPixel = 4,  ///< In scope.
 };
 
 struct LinkParams {
@@ -36,45 +35,28 @@ struct LinkParams {
   HueBand band{};            ///< Of the background, for the hue guard; none: no guard.
 };
 
-/// Columns first … last − 1 of a row.
-struct Span {
-  int first = 0;
-  int last = 0;
-};
-
 class ColourLinks {
  public:
-  /// mask: only pixels of kForegroundPixel are in scope; empty = all are.
-  void build(const Picture& picture, ImageView<const uint8_t> mask, const LinkParams& params,
-             const Executor& executor);
+  void build(const ColourPlanes& planes, const LinkParams& params, const Executor& executor);
 
-  [[nodiscard]] Size size() const { return size_; }
-  /// Of row y, the columns outside which no pixel is in scope.
-  [[nodiscard]] Span span(int y) const { return spans_[static_cast<size_t>(y)]; }
+  [[nodiscard]] Size size() const { return planes_.size; }
   [[nodiscard]] const uint8_t* links(int y) const { return links_.row(y); }
-  /// Distance of pixel x to its left neighbour; 0 … width.
-  [[nodiscard]] const uint8_t* leftDistances(int y) const { return left_.row(y); }
-  /// Distance of pixel x to its upper neighbour; y = 0 … height.
-  [[nodiscard]] const uint8_t* upDistances(int y) const { return up_.row(y); }
 
  private:
-  using Planes = std::array<ImageView<const uint8_t>, 3>;
-
-  void findSpans(ImageView<const uint8_t> mask, const Executor& executor);
-  void smooth(const Planes& planes, const Executor& executor);
-  void measure(int y, ImageView<const uint8_t> mask);
+  void findHues(int y);
+  void measure(int y);
   void guardHues(int y);
   void chooseNearest(int y);
-  void link(int y, ImageView<const uint8_t> mask, const LinkParams& params);
-  [[nodiscard]] Span hull(int y, int above, int below) const;
+  void link(int y, const LinkParams& params);
 
-  Size size_;
-  int channels_ = 0;
+  ColourPlanes planes_;
   HueBand band_;
-  std::vector<Span> spans_;
-  std::array<Image<uint8_t>, 3> across_, smooth_;
+  RowSpans spans_;
   Image<int16_t> hues_;
-  Image<uint8_t> left_, up_, nearest_, links_;
+  /// Distances of pixel x to its left neighbour, x = 0 … width, and to its upper one, y = 0 …
+  /// height.
+  Image<uint8_t> left_, up_;
+  Image<uint8_t> nearest_, links_;
 };
 
 }  // namespace rg

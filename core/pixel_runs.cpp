@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/pixel_runs.hpp"
 
+#include "core/simd/cell_rows.hpp"
 #include "core/simd/link_rows.hpp"
 
 #include <algorithm>
@@ -49,19 +50,57 @@ bool isAnySet(const uint64_t* words, int first, int last) {
 }  // namespace
 
 void PixelRuns::build(const ColourLinks& links, const RunLimits& limits, const Executor& executor) {
+  prepare(links.size(), limits);
+  executor.forRows(size_.height, [&](int firstRow, int lastRow) {
+    for (int y = firstRow; y < lastRow; ++y) {
+      const uint8_t* row = links.links(y);
+      simd::packRow(row, size_.width, kIsPixel, scope_.row(y));
+      simd::packRow(row, size_.width, kLinkedLeft, leftLinks_.row(y));
+      simd::packRow(row, size_.width, kLinkedUp, upLinks_.row(y));
+      countRuns(y);
+    }
+  });
+  findComponents(executor);
+}
+
+void PixelRuns::build(ImageView<const uint16_t> labels, const RunLimits& limits,
+                      const Executor& executor) {
+  prepare(labels.size, limits);
+  noLabels_.assign(static_cast<size_t>(size_.width), 0);
+  executor.forRows(size_.height, [&](int firstRow, int lastRow) {
+    for (int y = firstRow; y < lastRow; ++y) {
+      const uint16_t* row = labels.row(y);
+      uint64_t *scope = scope_.row(y), *left = leftLinks_.row(y);
+      simd::packEqual(row, noLabels_.data(), size_.width, scope);
+      for (int i = 0; i < scope_.width(); ++i) scope[i] = ~scope[i];
+      if (const int rest = size_.width % kWordBits; rest != 0)
+        scope[scope_.width() - 1] &= ~(~uint64_t{0} << rest);
+      // Bit i is that of pixel i + 1; the first pixel has no left neighbour.
+      simd::packEqual(row + 1, row, size_.width - 1, left);
+      if (size_.width % kWordBits == 1) left[scope_.width() - 1] = 0;
+      for (int i = scope_.width() - 1; i >= 0; --i)
+        left[i] = (left[i] << 1 | (i > 0 ? left[i - 1] >> (kWordBits - 1) : 0)) & scope[i];
+      simd::packEqual(row, labels.row(std::max(y - 1, 0)), size_.width, upLinks_.row(y));
+      countRuns(y);
+    }
+  });
+  findComponents(executor);
+}
+
+void PixelRuns::prepare(Size size, const RunLimits& limits) {
   limits_ = limits;
-  size_ = links.size();
+  size_ = size;
   const Size words{(size_.width + kWordBits - 1) / kWordBits, size_.height};
   for (Image<uint64_t>* bits : {&scope_, &leftLinks_, &upLinks_}) bits->resize(words);
   tileStarts_.assign(static_cast<size_t>(words.width), 0);
-  for (int x = 0; x < size_.width; x += limits_.tilePx)
+  const bool cuts = limits.maxAreaPx < size.area();
+  for (int x = 0; cuts && x < size_.width; x += limits_.tilePx)
     tileStarts_[static_cast<size_t>(x / kWordBits)] |= uint64_t{1} << (x % kWordBits);
   rowStarts_.assign(static_cast<size_t>(size_.height) + 1, 0);
-  executor.forRows(size_.height, [&](int firstRow, int lastRow) {
-    for (int y = firstRow; y < lastRow; ++y) packLinks(links, y);
-  });
-  for (size_t y = 1; y < rowStarts_.size(); ++y) rowStarts_[y] += rowStarts_[y - 1];
+}
 
+void PixelRuns::findComponents(const Executor& executor) {
+  for (size_t y = 1; y < rowStarts_.size(); ++y) rowStarts_[y] += rowStarts_[y - 1];
   runs_.resize(rowStarts_.back());
   parents_.resize(rowStarts_.back());
   areas_.resize(rowStarts_.back());
@@ -82,12 +121,8 @@ void PixelRuns::build(const ColourLinks& links, const RunLimits& limits, const E
   numberComponents();
 }
 
-/// Also counts the runs of the row: they begin where the scope does or where no link leads on.
-void PixelRuns::packLinks(const ColourLinks& links, int y) {
-  const uint8_t* row = links.links(y);
-  simd::packRow(row, size_.width, kInScope, scope_.row(y));
-  simd::packRow(row, size_.width, kLinkedLeft, leftLinks_.row(y));
-  simd::packRow(row, size_.width, kLinkedUp, upLinks_.row(y));
+/// Runs begin where the scope does or where no link leads on.
+void PixelRuns::countRuns(int y) {
   int starts = 0;
   for (int i = 0; i < scope_.width(); ++i)
     starts += std::popcount(scope_.row(y)[i] &

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Linked pixels as horizontal runs, and the runs' components (part of stage 2).
+// Linked pixels, or cells, as horizontal runs, and the runs' components (part of stage 2).
 //
 // Components larger than a limit are cut along a fixed grid of tiles: one motion does not describe
 // half a frame, and a grid stands still where iso-lines of a shading would wander.
@@ -9,6 +9,8 @@
 
 #include "core/colour_links.hpp"
 #include "core/executor.hpp"
+#include "core/image.hpp"
+#include "core/row_spans.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -31,6 +33,8 @@ struct RunLimits {
 class PixelRuns {
  public:
   void build(const ColourLinks& links, const RunLimits& limits, const Executor& executor);
+  /// The parts of equal labels; label 0 has none.
+  void build(ImageView<const uint16_t> labels, const RunLimits& limits, const Executor& executor);
 
   [[nodiscard]] uint32_t count() const { return static_cast<uint32_t>(runs_.size()); }
   [[nodiscard]] uint32_t componentCount() const { return componentCount_; }
@@ -48,7 +52,9 @@ class PixelRuns {
   [[nodiscard]] uint32_t part(uint32_t run) const { return parents_[run]; }
 
  private:
-  void packLinks(const ColourLinks& links, int y);
+  void prepare(Size size, const RunLimits& limits);
+  void countRuns(int y);
+  void findComponents(const Executor& executor);
   void findRuns(int y, std::vector<uint32_t>& cuts);
   void joinRows(int y, std::vector<uint32_t>& parents) const;
   void joinTiles();
@@ -56,6 +62,7 @@ class PixelRuns {
 
   RunLimits limits_;
   Size size_;
+  std::vector<uint16_t> noLabels_;               ///< As wide as a row.
   std::vector<uint64_t> tileStarts_;             ///< Bits of the columns where tiles begin.
   Image<uint64_t> scope_, leftLinks_, upLinks_;  ///< A bit a pixel.
   std::vector<uint32_t> rowStarts_;

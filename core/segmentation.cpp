@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/segmentation.hpp"
 
-#include "core/absorption.hpp"
+#include "core/border_pixels.hpp"
+#include "core/colour_cells.hpp"
 #include "core/colour_links.hpp"
 #include "core/pixel.hpp"
 #include "core/pixel_runs.hpp"
 #include "core/pool.hpp"
+#include "core/region_division.hpp"
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
 namespace rg {
@@ -17,21 +18,45 @@ namespace {
 constexpr int kMostRegions = 65535;
 constexpr int64_t kDefaultAreaShare = 1200;  // Least area of a region, as a share of the frame.
 constexpr int64_t kDefaultLeastArea = 32;
+constexpr uint32_t kSpareShare = 8;
 
 constexpr uint32_t leastArea(const SegmentationParams& params, Size size) {
   if (params.minAreaPx > 0) return static_cast<uint32_t>(params.minAreaPx);
   return static_cast<uint32_t>(std::max(kDefaultLeastArea, size.area() / kDefaultAreaShare));
 }
 
-/// Components above a 32nd of the frame are cut into tiles of about a 64th, of whole 8x8 cells.
-RunLimits runLimits(Size size) {
+/// The largest cells that at least kCellsInRegion of make the smallest region.
+int cellSide(uint32_t minAreaPx) {
+  constexpr uint32_t kCellsInRegion = 16;
+  int side = 1;
+  while (side < ColourCells::kLargestSide &&
+         static_cast<uint32_t>(4 * side * side) * kCellsInRegion <= minAreaPx)
+    side *= 2;
+  return side;
+}
+
+/// Cells lie farther apart than pixels: a shading steps by more between them.
+constexpr int cellSimilarity(int similarity) {
+  return similarity + similarity / 2;
+}
+
+struct GrowthLimits {
+  int similarity = 0;
+  uint32_t minAreaPx = 1;
+  uint32_t maxRegions = 1;
+  HueBand band{};
+};
+
+/// Components above a 32nd of the frame are cut into tiles of about a 64th, of whole 8x8 cells. In
+/// cells of a side.
+RunLimits runLimits(Size size, int sidePx) {
   constexpr int kTilesInFrame = 64, kTilesInRegion = 2, kCell = 8, kLeastTile = 32;
   const auto side = static_cast<int>(integerSqrt(static_cast<uint64_t>(size.area()))) /
                     static_cast<int>(integerSqrt(kTilesInFrame));
   const int tile = std::max(side / kCell * kCell, kLeastTile);
   const int64_t largest =
       kTilesInRegion * std::max<int64_t>(size.area() / kTilesInFrame, int64_t{tile} * tile);
-  return {static_cast<uint32_t>(largest), tile};
+  return {static_cast<uint32_t>(largest / (sidePx * sidePx)), tile / sidePx};
 }
 
 Result<std::shared_ptr<const Labels>> skipped(Pool<Labels>& pool, Scope scope, Size size) {
@@ -44,31 +69,6 @@ Result<std::shared_ptr<const Labels>> skipped(Pool<Labels>& pool, Scope scope, S
   labels->count = 0;
   return std::shared_ptr<const Labels>(labels);
 }
-
-/// Borders as they come, pairs that come again soon joined.
-class BorderList {
- public:
-  void clear() {
-    borders_.clear();
-    recent_.fill(0);
-  }
-  void add(uint32_t a, uint32_t b, uint32_t borderPx) {
-    if (a > b) std::swap(a, b);
-    uint32_t& at = recent_[(a * 0x9E3779B1u ^ b * 0x85EBCA77u) >> (32 - kRecentBits)];
-    if (at < borders_.size() && borders_[at].a == a && borders_[at].b == b) {
-      borders_[at].borderPx += borderPx;
-      return;
-    }
-    at = static_cast<uint32_t>(borders_.size());
-    borders_.push_back({a, b, borderPx});
-  }
-  [[nodiscard]] const std::vector<AbsorbedBorder>& borders() const { return borders_; }
-
- private:
-  static constexpr int kRecentBits = 11;
-  std::vector<AbsorbedBorder> borders_;
-  std::array<uint32_t, 1 << kRecentBits> recent_{};  ///< Where pairs of a hash are.
-};
 
 class CpuSegmentation : public SegmentationStage {
  public:
@@ -85,25 +85,17 @@ class CpuSegmentation : public SegmentationStage {
   ImageView<const uint8_t> decideByHue(const Picture& picture, const Foreground* foreground,
                                        const HueRules& rules, const HueBand& band,
                                        ImageView<const uint8_t> scope, Labels& labels);
-  void collectRegions(const Picture& picture);
-  void addRow(const Picture& picture, int y);
-  void collectBorders();
-  void collectBorders(int y, BorderList& borders) const;
-  void numberRegions(uint32_t maxRegions, Labels& labels);
+  void divide(const Picture& picture, ImageView<const uint8_t> scope, const GrowthLimits& limits,
+              Labels& labels);
 
   Context context_;
   Image<uint8_t> scope_, rawHues_, decided_;
+  ColourCells cells_;
   ColourLinks links_;
-  PixelRuns runs_;
-  struct Sums {
-    uint32_t red = 0, green = 0, blue = 0;  // Of a tile's pixels: 255 · 2048² < 2^32.
-    uint32_t areaPx = 0;
-  };
-  std::vector<Sums> sums_;  ///< Of each part, at its first run.
-  std::vector<BorderList> bands_;
-  Absorption absorption_;
-  std::vector<uint32_t> numbers_;
-  std::vector<uint64_t> order_;
+  PixelRuns cellRuns_, runs_;
+  RegionDivision cellDivision_, division_;
+  Image<uint16_t> cellIds_;
+  BorderPixels borderPixels_;
   Pool<Labels> pool_;
 };
 
@@ -131,18 +123,38 @@ Result<std::shared_ptr<const Labels>> CpuSegmentation::process(
   const ImageView<const uint8_t> mask =
       decideByHue(*picture, foreground.get(), params.hue, band,
                   chooseScope(foreground.get(), params.scope), *labels);
-  links_.build(*picture, mask, {params.similarity, minArea > 1, band}, *context_.cpu);
-  runs_.build(links_, runLimits(labels->size), *context_.cpu);
-  collectRegions(*picture);
-  collectBorders();
-  absorption_.run({minArea, maxRegions});
-  numberRegions(maxRegions, *labels);
+  divide(*picture, mask, {params.similarity, minArea, maxRegions, band}, *labels);
   labels->picture = std::move(picture);
   labels->foreground = std::move(foreground);
   return std::shared_ptr<const Labels>(labels);
 }
 
-// Sums by part first: bands have those of their own.
+// Regions are grown from cells where they are much larger than those, and then from pixels at the
+// borders only. A few more regions than wanted are left for what that changes.
+void CpuSegmentation::divide(const Picture& picture, ImageView<const uint8_t> scope,
+                             const GrowthLimits& limits, Labels& labels) {
+  const Executor& executor = *context_.cpu;
+  const int side = cellSide(limits.minAreaPx);
+  cells_.build(picture, scope, side, executor);
+  const int similarity = side > 1 ? cellSimilarity(limits.similarity) : limits.similarity;
+  links_.build(cells_.cells(), {similarity, limits.minAreaPx > 1, limits.band}, executor);
+  cellRuns_.build(links_, runLimits(labels.size, side), executor);
+  if (side == 1) {
+    labels.count = division_.run(cells_.cells(), cellRuns_, {limits.minAreaPx, limits.maxRegions},
+                                 executor, labels.ids);
+    return;
+  }
+  const uint32_t spare = limits.maxRegions / kSpareShare;
+  cellIds_.resize(cells_.cells().size);
+  cellDivision_.run(cells_.cells(), cellRuns_,
+                    {limits.minAreaPx, std::min<uint32_t>(limits.maxRegions + spare, kMostRegions)},
+                    executor, cellIds_);
+  borderPixels_.refine(cells_, cellIds_, executor, labels.ids);
+  runs_.build(labels.ids, {}, executor);
+  labels.count = division_.run(cells_.pixels(), runs_, {limits.minAreaPx, limits.maxRegions},
+                               executor, labels.ids);
+}
+
 /// The pixels that may get a region are kForegroundPixel; without data: all.
 ImageView<const uint8_t> CpuSegmentation::chooseScope(const Foreground* foreground, Scope scope) {
   switch (scope) {
@@ -203,105 +215,6 @@ ImageView<const uint8_t> CpuSegmentation::decideByHue(const Picture& picture,
     }
   }
   return decided_;
-}
-
-void CpuSegmentation::collectRegions(const Picture& picture) {
-  sums_.resize(runs_.count());
-  context_.cpu->forEach(runs_.bandCount(), [&](int band) {
-    const Span rows = runs_.bandRows(band);
-    std::fill(sums_.begin() + runs_.rowStart(rows.first), sums_.begin() + runs_.rowStart(rows.last),
-              Sums{});
-    for (int y = rows.first; y < rows.last; ++y) addRow(picture, y);
-  });
-  std::vector<AbsorbedRegion>& regions = absorption_.regions();
-  regions.assign(runs_.componentCount(), {});
-  for (uint32_t i = 0; i < runs_.count(); ++i) {
-    if (runs_.part(i) != i) continue;
-    AbsorbedRegion& region = regions[runs_.component(i)];
-    region.red += sums_[i].red;
-    region.green += sums_[i].green;
-    region.blue += sums_[i].blue;
-    region.areaPx += sums_[i].areaPx;
-  }
-}
-
-void CpuSegmentation::addRow(const Picture& picture, int y) {
-  const uint8_t *red = picture.red().row(y), *green = picture.green().row(y),
-                *blue = picture.blue().row(y);
-  for (uint32_t i = runs_.rowStart(y); i < runs_.rowStart(y + 1); ++i) {
-    const PixelRun& run = runs_.run(i);
-    Sums sums = sums_[runs_.part(i)];
-    for (int x = run.first; x < run.last; ++x) {
-      sums.red += red[x];
-      sums.green += green[x];
-      sums.blue += blue[x];
-    }
-    sums.areaPx += static_cast<uint32_t>(run.last - run.first);
-    sums_[runs_.part(i)] = sums;
-  }
-}
-
-void CpuSegmentation::collectBorders() {
-  bands_.resize(static_cast<size_t>(runs_.bandCount()));
-  context_.cpu->forEach(runs_.bandCount(), [&](int band) {
-    BorderList& borders = bands_[static_cast<size_t>(band)];
-    borders.clear();
-    const Span rows = runs_.bandRows(band);
-    for (int y = rows.first; y < rows.last; ++y) collectBorders(y, borders);
-  });
-  std::vector<AbsorbedBorder>& all = absorption_.borders();
-  all.clear();
-  for (const BorderList& band : bands_)
-    all.insert(all.end(), band.borders().begin(), band.borders().end());
-}
-
-void CpuSegmentation::collectBorders(int y, BorderList& borders) const {
-  for (uint32_t j = runs_.rowStart(y) + 1; j < runs_.rowStart(y + 1); ++j) {
-    const uint32_t a = runs_.component(j - 1), b = runs_.component(j);
-    if (a != b && runs_.run(j - 1).last == runs_.run(j).first) borders.add(a, b, 1);
-  }
-  if (y == 0) return;
-  forOverlaps(runs_, y, [&](uint32_t i, uint32_t j, int first, int last) {
-    const uint32_t a = runs_.component(i), b = runs_.component(j);
-    if (a != b) borders.add(a, b, static_cast<uint32_t>(last - first));
-  });
-}
-
-// Numbers follow the raster order of first pixels, as the components do. Where parts that touch
-// nothing are still more than allowed, the smallest go to label 0.
-void CpuSegmentation::numberRegions(uint32_t maxRegions, Labels& labels) {
-  constexpr uint32_t kDropped = 0, kOpen = ~uint32_t{0};
-  numbers_.assign(runs_.componentCount(), kOpen);
-  const std::vector<AbsorbedRegion>& left = absorption_.left();
-  if (left.size() > maxRegions) {
-    order_.clear();
-    for (const AbsorbedRegion& region : left)
-      order_.push_back(uint64_t{region.areaPx} << 32 | region.representative);
-    const size_t surplus = left.size() - maxRegions;
-    std::nth_element(order_.begin(), order_.begin() + static_cast<ptrdiff_t>(surplus),
-                     order_.end());
-    for (size_t i = 0; i < surplus; ++i) numbers_[static_cast<uint32_t>(order_[i])] = kDropped;
-  }
-  labels.count = 0;
-  for (uint32_t i = 0; i < numbers_.size(); ++i) {
-    uint32_t& number = numbers_[absorption_.representative(i)];
-    if (number == kOpen) number = ++labels.count;
-    numbers_[i] = number;
-  }
-  context_.cpu->forRows(labels.size.height, [&](int firstRow, int lastRow) {
-    for (int y = firstRow; y < lastRow; ++y) {
-      uint16_t* ids = labels.ids.row(y);
-      int done = 0;
-      for (uint32_t i = runs_.rowStart(y); i < runs_.rowStart(y + 1); ++i) {
-        const PixelRun& run = runs_.run(i);
-        const auto id = static_cast<uint16_t>(numbers_[runs_.component(i)]);
-        std::fill(ids + done, ids + run.first, kNoRegion);
-        std::fill(ids + run.first, ids + run.last, id);
-        done = run.last;
-      }
-      std::fill(ids + done, ids + labels.size.width, kNoRegion);
-    }
-  });
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Stage 2, element hsvsegment: regions of one colour (paper, section 2.2.2 and 2.3 phase 1.1).
 //
+// Where the least area allows, regions are grown from cells of 2x2 to 8x8 pixels; then the pixels
+// along their borders go where their colours fit.
 // Determinism: regions are the components of a predicate on neighbouring pixels, absorption runs in
 // synchronous rounds; the result does not depend on any order. Regions count from 1 in the raster
 // order of their first pixels.
@@ -48,7 +50,8 @@ struct Labels {
 struct SegmentationParams {
   Scope scope = Scope::Frame;
   int similarity = 2;     ///< Largest step between neighbours in one region, in grey levels of a
-                          ///< channel of the smoothed picture. 0 … 254.
+                          ///< channel of the smoothed picture. 0 … 254; half as much again
+                          ///< between cells.
   int minAreaPx = 0;      ///< Smaller regions are absorbed by the neighbour most like them; 0 = by
                           ///< the frame's size. 1 also leaves single pixels alone.
   int maxRegions = 1024;  ///< 1 … 65535, never exceeded.

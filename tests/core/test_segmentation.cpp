@@ -128,11 +128,11 @@ TEST(Segmentation, GrowingEqualsAFloodOfThePredicate) {
           picture->luma().at(std::clamp(x, 0, size.width - 1), std::clamp(y, 0, size.height - 1))};
     };
     const auto half = [](int a, int b) { return (a + b + 1) / 2; };
-    const auto across = [&](int x, int y) {
-      return half(half(level(x - 1, y), level(x + 1, y)), level(x, y));
+    const auto down = [&](int x, int y) {
+      return half(half(level(x, y - 1), level(x, y + 1)), level(x, y));
     };
     const auto smooth = [&](Point p) {
-      return half(half(across(p.x, p.y - 1), across(p.x, p.y + 1)), across(p.x, p.y));
+      return half(half(down(p.x - 1, p.y), down(p.x + 1, p.y)), down(p.x, p.y));
     };
     const auto expected = flood(
         size, [&](Point p, Point q) { return std::abs(smooth(p) - smooth(q)) <= similarity; });

@@ -4,6 +4,8 @@
 #include "core/block_matching.hpp"
 #include "core/objects.hpp"
 #include "core/pixel.hpp"
+#include "core/row_spans.hpp"
+#include "core/simd/cell_rows.hpp"
 #include "core/simd/link_rows.hpp"
 #include "tests/core/scenes.hpp"
 #include "tests/core/simd_targets.hpp"
@@ -196,6 +198,106 @@ TEST(SimdLinks, ChoicesAndLinksAreThePlainOnes) {
     }
 }
 
+/// 16-bit words with guards behind them; what `write` leaves there on each target.
+template <class Write>
+void expectWords(const std::vector<uint16_t>& before, const std::vector<uint16_t>& right,
+                 const Write& write) {
+  test::forEachTarget([&] {
+    std::vector<uint16_t> to = before;
+    write(to.data());
+    EXPECT_EQ(to, right) << before.size() << " words";
+  });
+}
+
+TEST(SimdCells, RowsAreSummedByTheirWords) {
+  constexpr uint8_t kScopes[] = {kInScope, kInScopeApart, 253, 0, 128};
+  for (const int count : kWidths)
+    for (int fill = 0; fill < kFills; ++fill) {
+      const Row from(count, fill);
+      Row scope(count);
+      std::vector<uint16_t> before(static_cast<size_t>(count) + 32, 60000);
+      auto sums = before, scoped = before, counts = before;
+      for (int i = 0; i < count; ++i) {
+        const auto at = static_cast<size_t>(i);
+        scope.bytes[at] = kScopes[hashOf(i, fill, 7) % 5];
+        const uint8_t value = scope[i];
+        sums[at] = static_cast<uint16_t>(sums[at] + from[i]);
+        if (value >= kInScopeApart) scoped[at] = sums[at];
+        if (value >= kInScopeApart)
+          counts[at] = static_cast<uint16_t>(counts[at] + 256 + (value == kInScope));
+      }
+      const uint8_t *p = from.bytes.data(), *q = scope.bytes.data();
+      expectWords(before, sums, [&](uint16_t* to) { simd::addRow(p, count, to); });
+      expectWords(before, scoped, [&](uint16_t* to) { simd::addScopedRow(p, q, count, to); });
+      expectWords(before, counts, [&](uint16_t* to) { simd::countRow(q, count, to); });
+      uint32_t sum = 0;
+      for (int i = 0; i < count; ++i) sum += from[i];
+      test::forEachTarget([&] { EXPECT_EQ(simd::sumRow(p, count), sum); });
+    }
+}
+
+// All sums that cells can have: up to 64 pixels of up to 255.
+TEST(SimdCells, MeansAreRoundedQuotients) {
+  for (int pixels = 0; pixels <= 64; ++pixels) {
+    const int count = 255 * pixels + 1;
+    std::vector<uint16_t> sums(static_cast<size_t>(count));
+    for (int i = 0; i < count; ++i) sums[static_cast<size_t>(i)] = static_cast<uint16_t>(i);
+    const std::vector<uint8_t> counts(sums.size(), static_cast<uint8_t>(pixels));
+    expectWrites(
+        count, [&](uint8_t* to) { simd::divideRow(sums.data(), counts.data(), count, to); },
+        [&](int i) { return pixels == 0 ? 0 : (i + pixels / 2) / pixels; });
+  }
+}
+
+TEST(SimdCells, PairsCountsAndEqualsAreThePlainOnes) {
+  const auto run = [](int count) {
+    std::vector<uint16_t> from(static_cast<size_t>(2 * count)), to(static_cast<size_t>(count) + 9);
+    for (int i = 0; i < 2 * count; ++i)
+      from[static_cast<size_t>(i)] = static_cast<uint16_t>(hashOf(i / 3, 2, 8) % 4 * 257);
+    Row counts(count), scope(count);
+    simd::addPairs(from.data(), count, to.data());
+    simd::splitCounts(from.data(), count, counts.bytes.data(), scope.bytes.data());
+    std::vector<uint64_t> words(static_cast<size_t>(count / 64 + 2), kGuard);
+    simd::packEqual(from.data() + 1, from.data(), count, words.data());
+    return std::tuple(to, counts.bytes, scope.bytes, words);
+  };
+  for (const int count : kWidths) {
+    const auto plain = [&] {
+      const test::TargetScope scope(HWY_SCALAR);
+      return run(count);
+    }();
+    EXPECT_EQ(std::get<0>(plain)[0], 2 * (hashOf(0, 2, 8) % 4 * 257));
+    EXPECT_EQ(std::get<3>(plain)[0] & 1, 1u);
+    test::forEachTarget([&] { EXPECT_EQ(run(count), plain) << count << " columns"; });
+  }
+}
+
+TEST(SimdCells, PixelsGoToTheNearestColour) {
+  simd::NearestColours cell;
+  cell.pixels = simd::kMostPixels;
+  cell.count = 5;
+  cell.margin = 6;
+  for (int c = 0; c < 3; ++c) {
+    for (int i = 0; i < cell.pixels; ++i)
+      cell.colours[c][i] = static_cast<uint8_t>(hashOf(i, c, 3) & 255);
+    for (int k = 0; k < cell.count; ++k)
+      cell.candidates[c][k] = static_cast<uint8_t>(hashOf(k, c, 4) & 255);
+  }
+  std::vector<uint16_t> before(simd::kMostPixels + 8, 7), right = before;
+  for (int k = 0; k < cell.count; ++k) cell.ids[k] = static_cast<uint16_t>(100 + k);
+  for (int i = 0; i < cell.pixels; ++i) {
+    int least = 10000;
+    for (int k = 0; k < cell.count; ++k) {
+      int distance = k == 0 ? 0 : cell.margin;
+      for (int c = 0; c < 3; ++c) distance += absDiff(cell.colours[c][i], cell.candidates[c][k]);
+      if (distance >= least) continue;
+      least = distance;
+      right[static_cast<size_t>(i)] = cell.ids[k];
+    }
+  }
+  expectWords(before, right, [&](uint16_t* to) { simd::chooseColours(cell, to); });
+}
+
 /// All that the four stages say of two frames, as numbers.
 std::vector<int64_t> answersOf(const std::shared_ptr<const Picture>& first,
                                const std::shared_ptr<const Picture>& second, const Context& context,
@@ -234,7 +336,7 @@ TEST(SimdStages, EveryTargetAndNumberOfThreadsGivesTheSameAnswers) {
     });
   };
   for (const Size size : {Size{1, 1}, Size{3, 70}, Size{131, 97}})
-    for (const int minAreaPx : {0, 1}) {
+    for (const int minAreaPx : {0, 1, 64, 256, 1024}) {
       const SegmentationParams params{Scope::Frame, 2, minAreaPx, 300};
       const auto first = moved(size, 0, 0), second = moved(size, 4, -3);
       const auto expected = [&] {

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "core/region_division.hpp"
+
+#include "core/simd/cell_rows.hpp"
+
+#include <algorithm>
+
+namespace rg {
+
+void BorderList::clear() {
+  borders_.clear();
+  recent_.fill(0);
+}
+
+void BorderList::add(uint32_t a, uint32_t b, uint32_t borderPx) {
+  if (a > b) std::swap(a, b);
+  uint32_t& at = recent_[(a * 0x9E3779B1u ^ b * 0x85EBCA77u) >> (32 - kRecentBits)];
+  if (at < borders_.size() && borders_[at].a == a && borders_[at].b == b) {
+    borders_[at].borderPx += borderPx;
+    return;
+  }
+  at = static_cast<uint32_t>(borders_.size());
+  borders_.push_back({a, b, borderPx});
+}
+
+uint32_t RegionDivision::run(const ColourPlanes& planes, const PixelRuns& runs,
+                             const Limits& limits, const Executor& executor,
+                             ImageView<uint16_t> ids) {
+  planes_ = planes;
+  runs_ = &runs;
+  collectRegions(executor);
+  collectBorders(executor);
+  absorption_.run({limits.minAreaPx, limits.maxRegions, static_cast<uint32_t>(planes.sidePx)});
+  const uint32_t count = numberRegions(limits.maxRegions);
+  executor.forRows(planes.size.height, [&](int first, int last) {
+    for (int y = first; y < last; ++y) writeRow(y, ids.row(y));
+  });
+  return count;
+}
+
+// Sums by part first: bands have those of their own.
+void RegionDivision::collectRegions(const Executor& executor) {
+  sums_.resize(runs_->count());
+  executor.forEach(runs_->bandCount(), [&](int band) {
+    const Span rows = runs_->bandRows(band);
+    std::fill(sums_.begin() + runs_->rowStart(rows.first),
+              sums_.begin() + runs_->rowStart(rows.last), Sums{});
+    for (int y = rows.first; y < rows.last; ++y) addRow(y);
+  });
+  std::vector<AbsorbedRegion>& regions = absorption_.regions();
+  regions.assign(runs_->componentCount(), {});
+  for (uint32_t i = 0; i < runs_->count(); ++i) {
+    if (runs_->part(i) != i) continue;
+    AbsorbedRegion& region = regions[runs_->component(i)];
+    region.red += sums_[i].red;
+    region.green += sums_[i].green;
+    region.blue += sums_[i].blue;
+    region.areaPx += sums_[i].areaPx;
+  }
+}
+
+void RegionDivision::addRow(int y) {
+  const uint8_t *red = planes_.colours[0].row(y), *green = planes_.colours[1].row(y),
+                *blue = planes_.colours[2].row(y);
+  const uint8_t* weights = planes_.weights.data != nullptr ? planes_.weights.row(y) : nullptr;
+  for (uint32_t i = runs_->rowStart(y); i < runs_->rowStart(y + 1); ++i) {
+    const PixelRun& run = runs_->run(i);
+    const int count = run.last - run.first;
+    Sums& sums = sums_[runs_->part(i)];
+    if (weights == nullptr) {
+      sums.red += simd::sumRow(red + run.first, count);
+      sums.green += simd::sumRow(green + run.first, count);
+      sums.blue += simd::sumRow(blue + run.first, count);
+      sums.areaPx += static_cast<uint32_t>(count);
+      continue;
+    }
+    for (int x = run.first; x < run.last; ++x) {
+      const uint32_t weight = weights[x];
+      sums.red += weight * red[x];
+      sums.green += weight * green[x];
+      sums.blue += weight * blue[x];
+      sums.areaPx += weight;
+    }
+  }
+}
+
+void RegionDivision::collectBorders(const Executor& executor) {
+  bands_.resize(static_cast<size_t>(runs_->bandCount()));
+  executor.forEach(runs_->bandCount(), [&](int band) {
+    BorderList& borders = bands_[static_cast<size_t>(band)];
+    borders.clear();
+    const Span rows = runs_->bandRows(band);
+    for (int y = rows.first; y < rows.last; ++y) collectBorders(y, borders);
+  });
+  std::vector<AbsorbedBorder>& all = absorption_.borders();
+  all.clear();
+  for (const BorderList& band : bands_)
+    all.insert(all.end(), band.borders().begin(), band.borders().end());
+}
+
+void RegionDivision::collectBorders(int y, BorderList& borders) const {
+  const auto side = static_cast<uint32_t>(planes_.sidePx);
+  const uint8_t* scope = planes_.scope.data != nullptr ? planes_.scope.row(y) : nullptr;
+  for (uint32_t j = runs_->rowStart(y) + 1; j < runs_->rowStart(y + 1); ++j) {
+    const uint32_t a = runs_->component(j - 1), b = runs_->component(j);
+    const int x = runs_->run(j).first;
+    if (a == b || runs_->run(j - 1).last != x) continue;
+    if (scope == nullptr || scope[x - 1] == scope[x]) borders.add(a, b, side);
+  }
+  if (y == 0) return;
+  const uint8_t* above = scope != nullptr ? planes_.scope.row(y - 1) : nullptr;
+  forOverlaps(*runs_, y, [&](uint32_t i, uint32_t j, int first, int last) {
+    const uint32_t a = runs_->component(i), b = runs_->component(j);
+    if (a == b || (scope != nullptr && above[first] != scope[first])) return;
+    borders.add(a, b, static_cast<uint32_t>(last - first) * side);
+  });
+}
+
+// Numbers follow the raster order of first pixels, as the components do. Where parts that touch
+// nothing are still more than allowed, the smallest go to label 0.
+uint32_t RegionDivision::numberRegions(uint32_t maxRegions) {
+  constexpr uint32_t kDropped = 0, kOpen = ~uint32_t{0};
+  numbers_.assign(runs_->componentCount(), kOpen);
+  const std::vector<AbsorbedRegion>& left = absorption_.left();
+  if (left.size() > maxRegions) {
+    order_.clear();
+    for (const AbsorbedRegion& region : left)
+      order_.push_back(uint64_t{region.areaPx} << 32 | region.representative);
+    const size_t surplus = left.size() - maxRegions;
+    std::nth_element(order_.begin(), order_.begin() + static_cast<ptrdiff_t>(surplus),
+                     order_.end());
+    for (size_t i = 0; i < surplus; ++i) numbers_[static_cast<uint32_t>(order_[i])] = kDropped;
+  }
+  uint32_t count = 0;
+  for (uint32_t i = 0; i < numbers_.size(); ++i) {
+    uint32_t& number = numbers_[absorption_.representative(i)];
+    if (number == kOpen) number = ++count;
+    numbers_[i] = number;
+  }
+  return count;
+}
+
+void RegionDivision::writeRow(int y, uint16_t* ids) const {
+  int done = 0;
+  for (uint32_t i = runs_->rowStart(y); i < runs_->rowStart(y + 1); ++i) {
+    const PixelRun& run = runs_->run(i);
+    std::fill(ids + done, ids + run.first, uint16_t{0});
+    std::fill(ids + run.first, ids + run.last,
+              static_cast<uint16_t>(numbers_[runs_->component(i)]));
+    done = run.last;
+  }
+  std::fill(ids + done, ids + planes_.size.width, uint16_t{0});
+}
+
+}  // namespace rg

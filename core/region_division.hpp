@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// From linked runs to numbered regions: small ones are absorbed, the rest gets labels (part of
+// stage 2).
+//
+// Determinism: components are numbered in raster order, sums commute, absorption runs in
+// synchronous rounds. Regions count from 1 in the raster order of their first pixels.
+#pragma once
+
+#include "core/absorption.hpp"
+#include "core/colour_cells.hpp"
+#include "core/executor.hpp"
+#include "core/image.hpp"
+#include "core/pixel_runs.hpp"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace rg {
+
+/// Borders as they come, pairs that come again soon joined.
+class BorderList {
+ public:
+  void clear();
+  void add(uint32_t a, uint32_t b, uint32_t borderPx);
+  [[nodiscard]] const std::vector<AbsorbedBorder>& borders() const { return borders_; }
+
+ private:
+  static constexpr int kRecentBits = 11;
+  std::vector<AbsorbedBorder> borders_;
+  std::array<uint32_t, 1 << kRecentBits> recent_{};  ///< Where pairs of a hash are.
+};
+
+class RegionDivision {
+ public:
+  struct Limits {
+    uint32_t minAreaPx = 1;
+    uint32_t maxRegions = 1024;  ///< Up to 65535.
+  };
+
+  /// Writes the region of every pixel or cell of `planes`, which `runs` belong to: 1 … count, or 0
+  /// out of scope. Where parts that touch nothing are more than allowed, the smallest get 0, too.
+  /// Returns count.
+  uint32_t run(const ColourPlanes& planes, const PixelRuns& runs, const Limits& limits,
+               const Executor& executor, ImageView<uint16_t> ids);
+
+ private:
+  void collectRegions(const Executor& executor);
+  void addRow(int y);
+  void collectBorders(const Executor& executor);
+  void collectBorders(int y, BorderList& borders) const;
+  uint32_t numberRegions(uint32_t maxRegions);
+  void writeRow(int y, uint16_t* ids) const;
+
+  ColourPlanes planes_;
+  const PixelRuns* runs_ = nullptr;
+  struct Sums {
+    uint32_t red = 0, green = 0, blue = 0;  // Of a band's pixels: 255 · 2^14 · 64 < 2^32.
+    uint32_t areaPx = 0;
+  };
+  std::vector<Sums> sums_;  ///< Of each part, at its first run.
+  std::vector<BorderList> bands_;
+  Absorption absorption_;
+  std::vector<uint32_t> numbers_;
+  std::vector<uint64_t> order_;
+};
+
+}  // namespace rg
