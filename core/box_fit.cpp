@@ -11,6 +11,7 @@ constexpr int kForegroundGain = 4;
 constexpr int kBackgroundLoss =
     3;  // A body fills some 60 % of its box: empty cells must cost less.
 constexpr int kRounds = 3;
+constexpr int kExpectedBonus = 2;
 
 /// Adds `change` to the claims of the cells inside the box.
 void claim(const Evidence& e, const Box& box, int change, std::vector<uint8_t>& claims) {
@@ -20,6 +21,12 @@ void claim(const Evidence& e, const Box& box, int change, std::vector<uint8_t>& 
       uint8_t& count = claims[e.at(x, y)];
       count = static_cast<uint8_t>(std::clamp(count + change, 0, 255));
     }
+}
+
+/// What the prediction of the regions says of a cell.
+int trustOf(const Evidence& e, const FitTask& task, size_t cell) {
+  if (e.expected[cell] == 0 || task.track == 0) return 0;
+  return e.expected[cell] == task.track ? kExpectedBonus : -kExpectedBonus;
 }
 
 /// Sums of what the cells of `window` are worth to a task: at(x, y) covers all above and left.
@@ -47,7 +54,8 @@ class ValueSums {
   static int value(const Evidence& e, const FitTask& task, size_t cell,
                    const std::vector<uint8_t>& claims) {
     if (e.group[cell] == 0) return -kBackgroundLoss;
-    return claims[cell] > 0 ? 0 : kForegroundGain + task.bonus[e.bin[cell]];
+    return claims[cell] > 0 ? 0
+                            : kForegroundGain + task.bonus[e.bin[cell]] + trustOf(e, task, cell);
   }
   int32_t& at(int x, int y) { return sums_[static_cast<size_t>(y * stride_ + x)]; }
   [[nodiscard]] int32_t get(int x, int y) const {
@@ -118,8 +126,10 @@ void assignCells(const Evidence& e, std::span<const FitTask> tasks, std::vector<
         uint16_t& mine = owner[cell];
         if (mine != 0) {
           const FitTask& other = tasks[mine - 1u];
-          const uint8_t bin = e.bin[cell];
-          if (other.tier < task.tier || other.bonus[bin] >= task.bonus[bin]) continue;
+          const auto claimOf = [&](const FitTask& t) {
+            return t.bonus[e.bin[cell]] + 2 * trustOf(e, t, cell);
+          };
+          if (other.tier < task.tier || claimOf(other) >= claimOf(task)) continue;
         }
         mine = static_cast<uint16_t>(i + 1);
       }

@@ -74,13 +74,15 @@ constexpr Point kEarlier[] = {{-1, 0}, {-1, -1}, {0, -1}, {1, -1}};
 }  // namespace
 
 void gather(const Graph& graph, std::span<const uint32_t> groupOf,
-            std::span<const uint8_t> isBackground, Evidence& e) {
+            std::span<const uint8_t> isBackground, std::span<const uint32_t> expectedOf,
+            Evidence& e) {
   e.frame = graph.size;
   e.stepPx = std::max(1, std::min(e.frame.width, e.frame.height) / kGridLines);
   e.grid = {(e.frame.width + e.stepPx - 1) / e.stepPx, (e.frame.height + e.stepPx - 1) / e.stepPx};
   const auto cells = static_cast<size_t>(e.grid.area());
   e.group.assign(cells, 0);
   e.bin.assign(cells, kUnknownBin);
+  e.expected.resize(cells);
   e.cellsOf.assign(isBackground.size(), 0);
   const Picture* picture = graph.labels->picture.get();
   for (size_t region = 0; region < groupOf.size(); ++region) {
@@ -89,6 +91,7 @@ void gather(const Graph& graph, std::span<const uint32_t> groupOf,
     const auto sample = [&](int x, int y, size_t cell) {
       e.group[cell] = static_cast<uint16_t>(group + 1);
       ++e.cellsOf[group];
+      e.expected[cell] = static_cast<uint16_t>(expectedOf[region]);
       if (picture)
         e.bin[cell] =
             colourBin(picture->red().at(x, y), picture->green().at(x, y), picture->blue().at(x, y));
@@ -115,7 +118,7 @@ void findPieces(const Evidence& e, std::span<const uint16_t> owner, PieceScratch
   s.label.assign(e.group.size(), 0);
   s.parent.assign(1, 0);
   e.forForeground([&](size_t cell, int x, int y) {
-    if (owner[cell] != 0) return;
+    if (!owner.empty() && owner[cell] != 0) return;
     uint32_t label = 0;
     for (const Point& d : kEarlier) {
       if (x + d.x < 0 || x + d.x >= e.grid.width || y + d.y < 0) continue;

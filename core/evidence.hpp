@@ -20,9 +20,11 @@ struct Evidence {
   int stepPx = 1;  ///< Side of a cell; 1 up to 288 lines, then growing with the frame.
   Size frame;
   Size grid;
-  std::vector<uint16_t> group;    ///< Of each cell: 1 + group, 0 = background. Row by row.
-  std::vector<uint8_t> bin;       ///< Colour bin (core/appearance.hpp), where group is not 0.
-  std::vector<uint32_t> cellsOf;  ///< Cells of each group.
+  std::vector<uint16_t> group;     ///< Of each cell: 1 + group, 0 = background. Row by row.
+  std::vector<uint8_t> bin;        ///< Colour bin (core/appearance.hpp), where group is not 0.
+  std::vector<uint16_t> expected;  ///< Of each cell: 1 + the track that its region is predicted to
+                                   ///< be, 0 = none; where group is not 0.
+  std::vector<uint32_t> cellsOf;   ///< Cells of each group.
   std::vector<RegionRun> runs;  ///< Of the cells that are no background, of one group each. Row by
                                 ///< row: what walks them costs nothing where nothing is.
   std::vector<uint16_t> runBegins;  ///< Scratch.
@@ -47,9 +49,11 @@ struct Evidence {
   void listRuns();
 };
 
-/// Samples the labels. Groups for which isBackground is set count as background.
+/// Samples the labels. Groups for which isBackground is set count as background. expectedOf: of
+/// each region 1 + the track that it is predicted to be, 0 = none.
 void gather(const Graph& graph, std::span<const uint32_t> groupOf,
-            std::span<const uint8_t> isBackground, Evidence& evidence);
+            std::span<const uint8_t> isBackground, std::span<const uint32_t> expectedOf,
+            Evidence& evidence);
 
 /// An 8-connected set of cells that belong to no track.
 struct Piece {
@@ -64,7 +68,8 @@ struct PieceScratch {
   std::vector<Piece> cut;
 };
 
-/// The parts of the foreground whose owner is 0. owner: for each cell 1 + track or 0.
+/// The parts of the foreground whose owner is 0. owner: for each cell 1 + track or 0; empty: nobody
+/// owns anything.
 void findPieces(const Evidence& evidence, std::span<const uint16_t> owner, PieceScratch& scratch,
                 std::vector<Piece>& pieces);
 

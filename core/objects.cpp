@@ -320,7 +320,7 @@ Result<std::shared_ptr<const Objects>> CpuObjectStage::process(std::shared_ptr<c
     return std::shared_ptr<const Objects>(objects);
   }
   mergeRegions(*motion, params, stepNs, *objects);
-  gather(*graph, objects->regionGroup, isBackground_, evidence_);
+  gather(*graph, objects->regionGroup, isBackground_, expected_, evidence_);
   evidence_.camera = {objects->cameraDx, objects->cameraDy};
   evidence_.showsMovers = graph->labels->scope == Scope::Frame;
   tracker_.update(evidence_, groups_, stepNs, tracking);

@@ -10,6 +10,8 @@
 namespace rg {
 namespace {
 
+// Things leave their expected places by half their width in this time, at most.
+constexpr int64_t kReachNs = 100'000'000;
 constexpr int64_t kSecondUs = 1'000'000;
 constexpr int kUnit = kPositionUnit;
 constexpr uint32_t kTrustedSamples = 8;
@@ -150,7 +152,7 @@ void Tracker::update(const Evidence& evidence, std::span<const Group> groups, in
     advance(track, stepNs);
     fitSizeToScene(track);
   }
-  lookForTracks(evidence);
+  lookForTracks(evidence, stepNs);
   findBlobs(evidence);
   giveBlobs(evidence);
   giveGroups(evidence, groups);
@@ -168,7 +170,7 @@ void Tracker::update(const Evidence& evidence, std::span<const Group> groups, in
   settle(stepNs, params);
 }
 
-void Tracker::lookForTracks(const Evidence& e) {
+void Tracker::lookForTracks(const Evidence& e, int64_t stepNs) {
   tasks_.clear();
   taskTrack_.clear();
   std::vector<size_t>& order = taskTrack_;
@@ -183,13 +185,18 @@ void Tracker::lookForTracks(const Evidence& e) {
   for (const size_t i : order) {
     const Track& track = tracks_[i];
     FitTask task;
+    task.track = static_cast<uint16_t>(i + 1);
     const auto cells = [&](int64_t v) { return static_cast<int>(divideRounded(v, cell)); };
     const int width = std::clamp(cells(track.size.width), 1, 2 * e.grid.width);
     const int height = std::clamp(cells(track.size.height), 1, 2 * e.grid.height);
     task.expected = {cells(int64_t{track.x} - track.size.width / 2), cells(track.foot) - height,
                      width, height};
-    task.reachX = std::max(1, track.hits < 3 ? width : width / 2);
-    task.reachY = std::max(1, track.hits < 3 ? height / 3 : height / 5);
+    const int64_t since = std::min<int64_t>(stepNs + track.unseenNs, kReachNs);
+    const auto within = [&](int most) {
+      return std::max(2, static_cast<int>(divideRounded(most * since, kReachNs)));
+    };
+    task.reachX = track.hits < 3 ? std::max(1, width) : within(width / 2);
+    task.reachY = track.hits < 3 ? std::max(1, height / 3) : within(height / 5);
     task.tier = tierOf(track);
     for (int bin = 0; bin < kColourBins && track.look.frames > 0; ++bin) {
       const int share = shareOf(track.look, bin);

@@ -39,6 +39,7 @@ struct Track {
   int64_t seenNs = 0;                 ///< Of its age.
   int64_t stillNs = 0;                ///< Since it last left its place.
   int32_t stillX = 0, stillFoot = 0;  ///< That place.
+  Extent stillSize;                   ///< Its size there.
   uint32_t ageFrames = 0;
   uint32_t hits = 0;                    ///< Frames in which it was seen.
   uint32_t sizeSamples = 0;             ///< Frames in which all of it was seen.
@@ -152,10 +153,12 @@ class Tracker {
   [[nodiscard]] static Point stepOf(const Track& track, int64_t stepNs);
   static void moveWithCamera(Track& track, Point camera);
   void advance(Track& track, int64_t stepNs) const;
-  void lookForTracks(const Evidence& evidence);
+  void lookForTracks(const Evidence& evidence, int64_t stepNs);
   void giveGroups(const Evidence& evidence, std::span<const Group> groups);
   void findBlobs(const Evidence& evidence);
   void giveBlobs(const Evidence& evidence);
+  void limitTracks(const Evidence& evidence);
+  void reclaimExpected(const Evidence& evidence);
   void spreadOwners(const Evidence& evidence);
   void sight(const Evidence& evidence);
   [[nodiscard]] bool isSizeKnown(const Track& track) const;
@@ -184,11 +187,14 @@ class Tracker {
   [[nodiscard]] bool isCovered(const Track& track) const;
   void fitSizeToScene(Track& track) const;
   void learnScale(const Evidence& evidence);
+  [[nodiscard]] bool outgrows(const Track& track, const Box& box) const;
   [[nodiscard]] bool areOneBody(size_t a, size_t b) const;
   void joinDoubles(int64_t stepNs);
   void findCompany(int64_t stepNs);
   void tellCompany();
   void tellNew(const Track& track);
+  [[nodiscard]] static int64_t movedBy(const Track& track);
+  [[nodiscard]] bool isLeaving(const Track& track) const;
   void settleState(Track& track, int64_t stepNs) const;
   void settle(int64_t stepNs, const TrackerParams& params);
 
@@ -211,13 +217,13 @@ class Tracker {
   PieceScratch pieceScratch_;
   std::vector<Newcomer> newcomers_;
   std::vector<int> newcomerOf_;  ///< Of each piece, −1 = none.
-  std::vector<uint16_t> noOwner_;
   std::vector<Majority> majorities_;
   std::vector<Piece> blobs_;  ///< Connected parts of all the foreground.
   PieceScratch blobScratch_;
   std::vector<uint32_t> blobCells_;
   std::vector<uint32_t> blobOf_;     ///< Of each track: 1 + blob, 0 = none.
   std::vector<uint16_t> distance_;   ///< Of each cell from those that owned it first.
+  std::vector<Box> limits_;          ///< Of each track, cells: beyond, nothing is part of it.
   std::vector<uint16_t> soleTrack_;  ///< Of each blob (from 1): 1 + the only track in it, or 0.
   std::vector<int> trackOfNewcomer_;
   std::vector<Encounter> encounters_;  ///< Sorted by ids.

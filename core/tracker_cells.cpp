@@ -28,8 +28,7 @@ bool standBeside(const Box& mine, const Box& other) {
 
 /// Connected parts of all the foreground, and for each track the one that it has most cells in.
 void Tracker::findBlobs(const Evidence& e) {
-  noOwner_.assign(e.group.size(), 0);
-  findPieces(e, noOwner_, blobScratch_, blobs_);
+  findPieces(e, {}, blobScratch_, blobs_);
   if (!scale_.isUniform()) cutPieces(e, blobScratch_, blobs_);
   blobOf_.assign(tracks_.size(), 0);
   soleTrack_.assign(blobs_.size() + 1, 0);
@@ -78,7 +77,31 @@ void Tracker::giveBlobs(const Evidence& e) {
     const Track& track = tracks_[owner - 1u];
     if (!isSizeKnown(track) || track.partedNs > kPartedNs) owner_[cell] = 0;
   });
+  limitTracks(e);
+  reclaimExpected(e);
   spreadOwners(e);
+}
+
+/// A track of known size ends a little way beyond its box.
+void Tracker::limitTracks(const Evidence& e) {
+  limits_.assign(tracks_.size(), boundsOf(e.grid));
+  for (size_t t = 0; t < tasks_.size(); ++t) {
+    const Box& box = tasks_[t].fitted;
+    if (isSizeKnown(tracks_[taskTrack_[t]]))
+      limits_[taskTrack_[t]] = inflate(box, std::max(2, std::min(box.width, box.height) / 4));
+  }
+}
+
+/// Cells that nobody has, or somebody of unknown size, go to whom their region is predicted to be.
+void Tracker::reclaimExpected(const Evidence& e) {
+  e.forForeground([&](size_t cell, int x, int y) {
+    const uint16_t expected = e.expected[cell], owner = owner_[cell];
+    if (expected == 0 || expected == owner || blobOf_[expected - 1u] != blobScratch_.label[cell])
+      return;
+    const bool isOwnersLoss = owner != 0 && !isSizeKnown(tracks_[owner - 1u]);
+    if (owner != 0 && !(isOwnersLoss && isSizeKnown(tracks_[expected - 1u]))) return;
+    if (limits_[expected - 1u].contains({x, y})) owner_[cell] = expected;
+  });
 }
 
 /// Two passes over the grid, each handing owners on with a distance of 3 straight and 4 diagonally.
@@ -94,7 +117,7 @@ void Tracker::spreadOwners(const Evidence& e) {
       const size_t other = e.at(x + d.x, y + d.y);
       if (blobScratch_.label[other] != blobScratch_.label[cell]) continue;
       const uint32_t far = distance_[other] + (d.x != 0 && d.y != 0 ? 4u : 3u);
-      if (far >= distance_[cell]) continue;
+      if (far >= distance_[cell] || !limits_[owner_[other] - 1u].contains({x, y})) continue;
       distance_[cell] = static_cast<uint16_t>(far);
       owner_[cell] = owner_[other];
     }

@@ -147,7 +147,7 @@ void Tracker::dropSmall(const Evidence& e, const TrackerParams& params) {
       const auto parent = std::find_if(tracks_.begin(), tracks_.end(),
                                        [&](const Track& t) { return t.id == n.parent; });
       if (parent != tracks_.end() &&
-          areaPx * 2 * kUnit * kUnit * 256 <
+          areaPx * (isSizeKnown(*parent) ? 8 : 2) * kUnit * kUnit * 256 <
               int64_t{parent->size.width} * parent->size.height * parent->fill)
         return true;
       return areaPx * 3000 < e.frame.area();
@@ -286,6 +286,7 @@ void Tracker::begin(const Newcomer& newcomer) {
   if (const uint64_t parent = parentOf(newcomer)) track.parents.push_back(parent);
   track.stillX = track.learntX = track.x;
   track.stillFoot = track.learntFoot = track.foot;
+  track.stillSize = track.size;
   track.look = newcomer.appearance;
   track.isFromBorder = newcomer.isAtBorder || showsMovers_;
   track.isSeen = true;

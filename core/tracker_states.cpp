@@ -89,12 +89,20 @@ void Tracker::learnScale(const Evidence& e) {
   }
 }
 
+/// Whether a box is larger than a track of which the size is known from its own history.
+bool Tracker::outgrows(const Track& track, const Box& box) const {
+  if (scale_.isUniform() || !isSizeKnown(track)) return false;
+  return 4 * int64_t{box.width} * kUnit > 5 * int64_t{track.size.width} ||
+         4 * int64_t{box.height} * kUnit > 5 * int64_t{track.size.height};
+}
+
 /// Whether two tracks seem to be one body: they lie above each other as its halves do, or together
 /// show no more than one of them should.
 bool Tracker::areOneBody(size_t a, size_t b) const {
   const Track &p = tracks_[a], &q = tracks_[b];
   const Box first = p.box(), second = q.box(), both = unite(first, second);
   const int columns = std::min(first.right(), second.right()) - std::max(first.x, second.x);
+  if (outgrows(p, both) || outgrows(q, both)) return false;
   if (!scale_.isUniform() && blobOf_[a] != 0 && blobOf_[a] == blobOf_[b] &&
       std::min(p.apartNs, q.apartNs) < kDoubleNs)
     return true;
@@ -165,21 +173,29 @@ bool Tracker::isCovered(const Track& track) const {
   return 5 * covered >= 2 * box.area();
 }
 
+/// How far a track has come since it last left its place, in 1/16 px. Of what comes in at the
+/// border only the inner edges move.
+int64_t Tracker::movedBy(const Track& track) {
+  const int64_t dx = std::abs(track.x - track.stillX), dy = std::abs(track.foot - track.stillFoot);
+  if (track.isConfirmed || !track.isFromBorder)
+    return integerSqrt(static_cast<uint64_t>(dx * dx + dy * dy));
+  const int64_t wider = std::abs(track.size.width - track.stillSize.width) / 2;
+  const int64_t higher = std::abs(track.size.height - track.stillSize.height);
+  return std::max(dx + wider, dy + higher);
+}
+
 void Tracker::settleState(Track& track, int64_t stepNs) const {
-  const int64_t dx = track.x - track.stillX, dy = track.foot - track.stillFoot;
-  // In the middle of the picture only what left something behind appears, so more is asked there.
-  const int64_t leave = track.size.height / (track.isConfirmed || track.isFromBorder ? 6 : 3);
+  // In the middle of the picture only what left something behind appears, and who comes out of
+  // somebody: of the former more is asked.
+  const int64_t leave = track.size.height /
+                        (track.isConfirmed || track.isFromBorder || !track.parents.empty() ? 6 : 3);
   track.stillNs += stepNs;
-  const bool hasLeft = dx * dx + dy * dy > leave * leave;
-  if (hasLeft) {
+  const bool hasLeft = movedBy(track) > leave;
+  if (hasLeft || (!track.isConfirmed && track.stillNs > kCreepNs)) {
     track.stillNs = 0;
     track.stillX = track.x;
     track.stillFoot = track.foot;
-  }
-  if (!track.isConfirmed && track.stillNs > kCreepNs) {
-    track.stillNs = 0;
-    track.stillX = track.x;
-    track.stillFoot = track.foot;
+    track.stillSize = track.size;
   }
   track.hasMoved |= track.stillNs == 0 && hasLeft;
   if (track.hits >= kConfirmHits && track.hasMoved) track.isConfirmed = true;
@@ -202,6 +218,15 @@ void Tracker::tellNew(const Track& track) {
       events_.push_back({EventKind::Split, {parent.id, track.id}});
 }
 
+/// Whether the last bit of a track is about to leave the picture: what is seen there next may be
+/// somebody who comes in.
+bool Tracker::isLeaving(const Track& track) const {
+  const Box box = track.box();
+  if (!track.isConfirmed || 8 * intersect(box, boundsOf(frame_)).area() >= box.area()) return false;
+  return (box.x < 0 && track.speedX < 0) || (box.right() > frame_.width && track.speedX > 0) ||
+         (box.y < 0 && track.speedY < 0) || (box.bottom() > frame_.height && track.speedY > 0);
+}
+
 /// States of all tracks; ends those that are gone and says so.
 void Tracker::settle(int64_t stepNs, const TrackerParams& params) {
   clutter_.age(stepNs);
@@ -218,7 +243,7 @@ void Tracker::settle(int64_t stepNs, const TrackerParams& params) {
     const bool hasLeft = !track.isSeen && frame_.width > 0 &&
                          2 * intersect(box, boundsOf(frame_)).area() < box.area();
     const bool isOver =
-        track.isOver || hasLeft ||
+        track.isOver || hasLeft || isLeaving(track) ||
         (track.isConfirmed ? track.unseenNs > params.maxLostNs : track.unseenNs > kFlickerNs);
     if (!wasConfirmed && track.isConfirmed) tellNew(track);
     if (isOver) {

@@ -14,6 +14,7 @@ Evidence gridWith(Size grid, const std::vector<Box>& foreground, uint8_t bin = 0
   e.frame = e.grid = grid;
   e.group.assign(static_cast<size_t>(grid.area()), 0);
   e.bin.assign(e.group.size(), bin);
+  e.expected.assign(e.group.size(), 0);
   for (const Box& box : foreground)
     for (int y = box.y; y < box.bottom(); ++y)
       for (int x = box.x; x < box.right(); ++x) e.group[e.at(x, y)] = 1;
@@ -82,6 +83,31 @@ TEST(BoxFit, ColourDecidesWhoOwnsACellOfBoth) {
   tasks[1].bonus[5] = 1;
   assignCells(e, tasks, owner);
   EXPECT_EQ(owner[e.at(20, 20)], 2);
+}
+
+TEST(BoxFit, ABoxPrefersWhatIsExpectedToBeItsOwn) {
+  Evidence e = gridWith({60, 60}, {{14, 20, 8, 20}, {26, 20, 8, 20}});
+  for (int y = 20; y < 40; ++y)
+    for (int x = 14; x < 22; ++x) e.expected[e.at(x, y)] = 3;
+  FitTask task = taskAt({20, 20, 8, 20});
+  task.track = 3;
+  EXPECT_EQ(fit(e, {task})[0].fitted.x, 14);
+  task.track = 4;
+  EXPECT_EQ(fit(e, {task})[0].fitted.x, 26);
+}
+
+TEST(BoxFit, ACellOfBothBelongsToWhomItsRegionIsExpectedToBe) {
+  Evidence e = gridWith({60, 60}, {{20, 20, 8, 20}}, 5);
+  e.expected[e.at(22, 22)] = 2;
+  auto tasks = std::vector<FitTask>{taskAt({20, 20, 8, 20}), taskAt({20, 20, 8, 20})};
+  for (size_t i = 0; i < tasks.size(); ++i) {
+    tasks[i].fitted = tasks[i].expected;
+    tasks[i].track = static_cast<uint16_t>(i + 1);
+  }
+  std::vector<uint16_t> owner;
+  assignCells(e, tasks, owner);
+  EXPECT_EQ(owner[e.at(22, 22)], 2);
+  EXPECT_EQ(owner[e.at(23, 22)], 1);
 }
 
 TEST(BoxFit, BoxesMayReachBeyondTheFrame) {

@@ -98,12 +98,14 @@ TEST(Evidence, CellsSampleTheGroupsThatAreNoBackground) {
   labels->status = Status::Ok;
   const auto graph = *makeGraphStage(scenes::contextWith(1))->process(labels, {});
   Evidence e;
-  gather(*graph, std::vector<uint32_t>{0, 1}, std::vector<uint8_t>{1, 0}, e);
+  gather(*graph, std::vector<uint32_t>{0, 1}, std::vector<uint8_t>{1, 0},
+         std::vector<uint32_t>{0, 7}, e);
   EXPECT_EQ(e.stepPx, 2);
   EXPECT_EQ(e.grid, (Size{320, 240}));
   EXPECT_THAT(e.cellsOf, ElementsAre(0, 25 * 50));
   EXPECT_EQ(e.group[e.at(60, 60)], 2);
   EXPECT_EQ(e.group[e.at(10, 10)], 0);
+  EXPECT_EQ(e.expected[e.at(60, 60)], 7);
   EXPECT_EQ(e.runs.size(), 50u);
   EXPECT_EQ(e.runs.front(), (RegionRun{50, 50, 75}));
 }

@@ -173,6 +173,28 @@ TEST(Objects, SlowEntryFromTheBorderMakesOneObject) {
   EXPECT_GE(overlap(toldOf(*objects)[0]->box, {88, 80, 30, 70}), 0.9);
 }
 
+TEST(Objects, WhatComesInIsToldAsSoonAsAllOfItIsSeen) {
+  Scene scene;
+  std::shared_ptr<const Objects> objects;
+  for (int x = -60; x <= 0; x += 4) objects = scene.show({{{x, 100, 60, 90}, kRed}});
+  const auto told = toldOf(*objects);
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_GE(overlap(told[0]->box, {0, 100, 60, 90}), 0.8);
+}
+
+TEST(Objects, WhatComesInBesideAKnownObjectIsAnObjectOfItsOwn) {
+  Scene scene;
+  std::shared_ptr<const Objects> objects;
+  for (int i = 0; i < 65; ++i) {
+    const Box old{10 + 2 * i, 120, 60, 40}, fresh{20 + 2 * i, 280 - 2 * i, 60, 50};
+    objects = scene.show({{old, kRed}, {fresh, kBlue}});
+  }
+  const auto told = toldOf(*objects);
+  ASSERT_EQ(told.size(), 2u);
+  EXPECT_GE(overlap(told[0]->box, {138, 120, 60, 40}), 0.7);
+  EXPECT_GE(overlap(told[1]->box, {148, 152, 60, 50}), 0.7);
+}
+
 TEST(Objects, ABodyOfSeveralColoursIsOneObject) {
   Scene scene;
   std::shared_ptr<const Objects> objects;

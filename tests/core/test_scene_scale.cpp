@@ -84,6 +84,15 @@ TEST(SceneScale, ThingsOfOneHeightAndOfAllWidthsAreNotUniform) {
   EXPECT_FALSE(scale.isUniform());
 }
 
+TEST(SceneScale, ThingsOfTwoWidthsAreNotUniform) {
+  SceneScale scale;
+  scale.reset({640, 480});
+  for (int i = 0; i < 60; ++i)
+    scale.learn(static_cast<uint64_t>(i % 12), 200, {(i % 3 == 0 ? 55 : 30) * 16, 60 * 16});
+  EXPECT_TRUE(scale.isKnown());
+  EXPECT_FALSE(scale.isUniform());
+}
+
 TEST(SceneScale, OneThingAloneSaysNothingOfOthers) {
   SceneScale scale;
   scale.reset(kFrame);
