@@ -11,7 +11,7 @@
 namespace rg {
 namespace {
 
-void clearOutside(const Image<uint8_t>& interest, Image<uint8_t>& mask) {
+void clearOutside(ImageView<const uint8_t> interest, ImageView<uint8_t> mask) {
   for (int y = 0; y < mask.height(); ++y) {
     const uint8_t* isInside = interest.row(y);
     uint8_t* row = mask.row(y);
@@ -82,12 +82,17 @@ Result<std::shared_ptr<const Foreground>> CpuBackgroundStage::process(
   out->scene = {};
   out->status = Status::Ok;
   out->picture = picture;
+  if (out->mask.size() != size) {
+    out->mask.resize(size);
+    out->extent = boundsOf(size);
+  }
   model.segment({std::move(picture), params, clock_, *context_.cpu}, *out);
 
   out->interest = params.interest;
-  if (out->interest) clearOutside(*out->interest, out->mask);
-  const Box extent = model.extent(size);
-  findComponents(out->mask.view().crop(extent), kForegroundPixel, Connectivity::Eight, parts_);
+  const Box& extent = out->extent;
+  const ImageView<uint8_t> mask = out->mask.view().crop(extent);
+  if (out->interest) clearOutside(out->interest->view().crop(extent), mask);
+  findComponents(mask, kForegroundPixel, Connectivity::Eight, parts_);
   out->areas.clear();
   for (const Component& part : parts_.list) {
     const Box& box = part.box;

@@ -39,6 +39,7 @@ struct Foreground {
   Status status = Status::Skipped;
   std::shared_ptr<const Picture> picture;  ///< What was looked at; later stages look at it too.
   Image<uint8_t> mask;                     ///< kBackgroundPixel, kShadowPixel, kForegroundPixel.
+  Box extent;                              ///< Outside of it the mask is background.
   std::vector<Box> areas;  ///< Bounding boxes of the foreground's 8-connected parts.
   std::shared_ptr<const Image<uint8_t>> interest;  ///< As in the parameters.
   Scene scene;

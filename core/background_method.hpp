@@ -20,10 +20,9 @@ class BackgroundMethodModel {
   virtual ~BackgroundMethodModel() = default;
   /// Allocates whatever segment() needs for such pictures. May throw; changes no model.
   virtual void prepare(const Picture& picture) = 0;
-  /// Writes status, mask and scene; then learns the frame.
+  /// Writes status, mask, extent and scene; then learns the frame. The mask has the picture's size
+  /// and is background outside of the extent, which is that of an earlier frame.
   virtual void segment(const BackgroundJob& job, Foreground& out) = 0;
-  /// A box of the frame outside which the last mask is background.
-  [[nodiscard]] virtual Box extent(Size frame) const { return boundsOf(frame); }
   virtual void reset(Reset what) = 0;
 };
 

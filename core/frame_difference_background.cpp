@@ -28,11 +28,20 @@ uint32_t leastPx(Size frame) {
   return static_cast<uint32_t>(std::max<int64_t>(8, frame.area() / 10000));
 }
 
+void fill(ImageView<uint8_t> image, uint8_t value) {
+  for (int y = 0; y < image.height(); ++y) std::fill_n(image.row(y), image.width(), value);
+}
+
+/// Writes no more than was painted the last time.
+void clearMask(Foreground& out) {
+  fill(out.mask.view().crop(out.extent), kBackgroundPixel);
+  out.extent = {};
+}
+
 class FrameDifferenceBackground final : public BackgroundMethodModel {
  public:
   void prepare(const Picture& picture) override;
   void segment(const BackgroundJob& job, Foreground& out) override;
-  [[nodiscard]] Box extent(Size) const override { return extent_; }
   void reset(Reset what) override;
 
  private:
@@ -42,7 +51,7 @@ class FrameDifferenceBackground final : public BackgroundMethodModel {
   SceneEvent compareScene(const ColourPlanes& now);
   void seed();
   void judgeParts(const BackgroundJob& job);
-  void paint(ImageView<uint8_t> mask);
+  void paint(Foreground& out);
   void learn(const ColourPlanes& now);
   void learnBox(const ColourPlanes& now, const Box& box);
   void rememberAreas();
@@ -60,7 +69,6 @@ class FrameDifferenceBackground final : public BackgroundMethodModel {
   std::vector<Verdict> verdicts_;  ///< Of each part.
   Image<uint8_t> isKept_;          ///< Cells that the memory must not take over.
   BitMask bits_;
-  Box extent_;  ///< Of all things that were painted.
   CleaningScratch scratch_;
 };
 
@@ -81,9 +89,8 @@ void FrameDifferenceBackground::start(const BackgroundJob& job, Foreground& out)
   hasStarted_ = true;
   frame_ = 0;
   threshold_ = kLeastThreshold;
-  extent_ = {};
   out.status = Status::Training;
-  out.mask.fill(kBackgroundPixel);
+  clearMask(out);
   previous_ = job.picture;
 }
 
@@ -177,23 +184,22 @@ void FrameDifferenceBackground::judgeParts(const BackgroundJob& job) {
   }
 }
 
-void FrameDifferenceBackground::paint(ImageView<uint8_t> mask) {
-  for (int y = 0; y < mask.height(); ++y) std::fill_n(mask.row(y), mask.width(), kBackgroundPixel);
-  extent_ = {};
+void FrameDifferenceBackground::paint(Foreground& out) {
+  clearMask(out);
+  const Size frame = out.mask.size();
   for (const Run& run : search_.parts().runs) {
     if (verdicts_[run.component] != Verdict::Thing) continue;
-    const Box box = pixelsOfCells(run, mask.size);
-    extent_ = unite(extent_, box);
+    const Box box = pixelsOfCells(run, frame);
+    out.extent = unite(out.extent, box);
     for (int y = box.y; y < box.bottom(); ++y)
       keepDense(search_.foundRow(y - 1), search_.foundRow(y), search_.foundRow(y + 1),
-                {y, box.x, box.right()}, mask.row(y));
+                {y, box.x, box.right()}, out.mask.row(y));
   }
-  const ImageView<uint8_t> part = mask.crop(extent_);
+  const ImageView<uint8_t> part = out.mask.view().crop(out.extent);
   packEqual(part, kForegroundPixel, bits_);
-  fillHoles(bits_, static_cast<uint32_t>(mask.size.area() / 100), scratch_);
-  dropSmallParts(bits_, leastPx(mask.size), scratch_);
-  for (int y = 0; y < extent_.height; ++y)
-    std::fill_n(part.row(y), extent_.width, kBackgroundPixel);
+  fillHoles(bits_, static_cast<uint32_t>(frame.area() / 100), scratch_);
+  dropSmallParts(bits_, leastPx(frame), scratch_);
+  fill(part, kBackgroundPixel);
   rg::paint(bits_, kForegroundPixel, part);
 }
 
@@ -242,7 +248,6 @@ void FrameDifferenceBackground::rememberAreas() {
 }
 
 void FrameDifferenceBackground::segment(const BackgroundJob& job, Foreground& out) {
-  out.mask.resize(job.picture->size());
   if (!hasStarted_) return start(job, out);
   ++frame_;
   const ColourPlanes now = planesOf(*job.picture);
@@ -256,7 +261,7 @@ void FrameDifferenceBackground::segment(const BackgroundJob& job, Foreground& ou
   const int sceneThreshold = std::min(255, 2 * threshold_);
   search_.run(job.params.search, {now, before, memory_, threshold_, sceneThreshold}, job.executor);
   judgeParts(job);
-  paint(out.mask);
+  paint(out);
   learn(now);
   rememberAreas();
   previous_ = job.picture;

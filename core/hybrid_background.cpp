@@ -155,7 +155,7 @@ void HybridBackground::publish(const BackgroundJob& job, ImageView<uint8_t> out)
 }
 
 void HybridBackground::segment(const BackgroundJob& job, Foreground& out) {
-  out.mask.resize(job.picture->size());
+  out.extent = boundsOf(job.picture->size());
   if (model_.channels == 0) {
     smooth(*job.picture, job.executor, smooth_);
     return start(job, out);

@@ -113,7 +113,7 @@ void PaperBackground::validate(const BackgroundJob& job, ImageView<uint8_t> mask
 }
 
 void PaperBackground::segment(const BackgroundJob& job, Foreground& out) {
-  out.mask.resize(job.picture->size());
+  out.extent = boundsOf(job.picture->size());
   if (!isTrained_) {
     out.status = Status::Training;
     out.mask.fill(kBackgroundPixel);

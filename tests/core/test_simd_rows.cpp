@@ -6,6 +6,7 @@
 #include "core/pixel.hpp"
 #include "core/simd/bit_rows.hpp"
 #include "core/simd/consensus_rows.hpp"
+#include "core/simd/difference_rows.hpp"
 #include "core/simd/majority_rows.hpp"
 #include "core/simd/picture_rows.hpp"
 #include "core/simd/still_rows.hpp"
@@ -128,6 +129,59 @@ TEST(SimdRows, SmoothingIsThePlainOne) {
     simd::smoothRow(in, out.row(0));
     expectSame(out, expected, width);
     expectGuarded(out, expected, width);
+  });
+}
+
+/// Pixels of two pictures in memory of the very length, so that the sanitizer sees a step too far.
+struct TwoRows {
+  TwoRows(const Fill& fill, int count, int channels) : pair{{}, {}, channels, count} {
+    for (size_t c = 0; c < 3; ++c)
+      for (int x = 0; x < count; ++x) {
+        a[c].push_back(fill(x, static_cast<int>(c)));
+        b[c].push_back(static_cast<uint8_t>(a[c].back() ^ (x % 11)));
+      }
+    for (size_t c = 0; c < 3; ++c) {
+      pair.a[c] = a[c].data();
+      pair.b[c] = b[c].data();
+    }
+  }
+
+  std::array<std::vector<uint8_t>, 3> a, b;
+  RowPair pair;
+};
+
+TEST(SimdRows, DistancesAndWhatIsFarAreThePlainOnes) {
+  forAll([](const Fill& fill, int width) {
+    const TwoRows rows(fill, width, width % 2 == 0 ? 1 : 3);
+    const auto limit = static_cast<uint8_t>(width % 13 == 0 ? 255 : width % 13);
+    std::vector<uint8_t> expected(static_cast<size_t>(width)), out = expected, where = expected;
+    plain::measureDistances(rows.pair, expected.data());
+    simd::measureDistances(rows.pair, out.data());
+    ASSERT_EQ(out, expected);
+    plain::markFar(rows.pair, limit, expected.data());
+    simd::markFar(rows.pair, limit, out.data());
+    ASSERT_EQ(out, expected);
+    for (size_t x = 0; x < where.size(); ++x) {
+      where[x] = static_cast<uint8_t>(x % 3 == 0 ? 0 : 255);
+      expected[x] = out[x] = static_cast<uint8_t>(x % 5 == 0 ? 255 : 0);
+    }
+    plain::addFar(rows.pair, limit, where.data(), expected.data());
+    simd::addFar(rows.pair, limit, where.data(), out.data());
+    ASSERT_EQ(out, expected);
+  });
+}
+
+TEST(SimdRows, DensePlacesAreThePlainOnes) {
+  forAll([](const Fill& fill, int width) {
+    std::array<std::vector<uint8_t>, 3> rows;
+    for (int y = 0; y < 3; ++y)
+      for (int x = 0; x < width + 2; ++x)
+        rows[static_cast<size_t>(y)].push_back((fill(x, y) & 9) != 0 ? 255 : 0);
+    const BinaryRows in{rows[0].data() + 1, rows[1].data() + 1, rows[2].data() + 1};
+    std::vector<uint8_t> expected(static_cast<size_t>(width)), out = expected;
+    plain::keepDense(in, width, expected.data());
+    simd::keepDense(in, width, out.data());
+    ASSERT_EQ(out, expected);
   });
 }
 
