@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/fit_sums.hpp"
 
+#include "core/fit_moments.hpp"
+
 #include <algorithm>
 #include <bit>
 #include <cstdlib>
@@ -61,6 +63,36 @@ FitSums sumFitPlainly(const MatchedCell& cell, ImageView<const uint8_t> luma,
       addPixel(row[x + 1] - row[x - 1], below[x] - above[x],
                row[x] * kFine - sampler.at(previous, x, y), limit, sums);
   }
+  return sums;
+}
+
+FitMoments sumMomentsPlainly(std::span<const MatchedPart> parts, const FitPlane& plane,
+                             const FitField& field, int limit) {
+  FitMoments moments;
+  for (const MatchedPart& part : parts)
+    forCells(part, [&](const MatchedCell& cell) {
+      const Point offset = offsetOf(cell, field.centroid);
+      const Point d = displacementAt(field, offset, plane.previous->reach());
+      if (!isVisible(cell, d, plane.current.size)) return;
+      addCell(sumFitPlainly(cell, plane.current, *plane.previous, d, limit), offset, moments);
+    });
+  return moments;
+}
+
+GradientProducts sumGradientsPlainly(std::span<const MatchedPart> parts,
+                                     ImageView<const uint8_t> luma) {
+  GradientProducts sums;
+  for (const MatchedPart& part : parts)
+    forBlocks(part, [&](int x0, int y) {
+      if (y == 0 || y == luma.height() - 1) return;
+      for (int x = std::max(x0, 1); x < std::min(x0 + kBlockWidth, luma.width() - 1); ++x) {
+        const int gx = luma.row(y)[x + 1] - luma.row(y)[x - 1];
+        const int gy = luma.row(y + 1)[x] - luma.row(y - 1)[x];
+        sums.xx += gx * gx;
+        sums.xy += gx * gy;
+        sums.yy += gy * gy;
+      }
+    });
   return sums;
 }
 

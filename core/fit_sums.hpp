@@ -49,13 +49,27 @@ struct FitSums {
   friend bool operator==(const FitSums&, const FitSums&) = default;
 };
 
-/// d: in 1/256 px, less than the reach of `previous`. limit: in 1/256 grey levels, at most 255 ·
-/// 256. On the best instructions that the machine has; the same bits as sumFitPlainly on all.
+/// The largest limit of a residual: half of the range never fits.
+inline constexpr int kMostLimit = 127 * kFine;
+
+/// d: in 1/256 px, less than the reach of `previous`. limit: in 1/256 grey levels, at most
+/// kMostLimit. On the best instructions that the machine has; the same bits as sumFitPlainly on
+/// all.
 [[nodiscard]] FitSums sumFit(const MatchedCell& cell, ImageView<const uint8_t> luma,
                              const PaddedLuma& previous, Point d, int limit);
 
 /// The same pixel by pixel: what it means.
 [[nodiscard]] FitSums sumFitPlainly(const MatchedCell& cell, ImageView<const uint8_t> luma,
                                     const PaddedLuma& previous, Point d, int limit);
+
+/// Sums of products of gradients over all pixels that have one.
+struct GradientProducts {
+  int64_t xx = 0, xy = 0, yy = 0;
+  friend bool operator==(const GradientProducts&, const GradientProducts&) = default;
+};
+[[nodiscard]] GradientProducts sumGradients(std::span<const MatchedPart> parts,
+                                            ImageView<const uint8_t> luma);
+[[nodiscard]] GradientProducts sumGradientsPlainly(std::span<const MatchedPart> parts,
+                                                   ImageView<const uint8_t> luma);
 
 }  // namespace rg

@@ -28,8 +28,9 @@ inline void add(GradientSums& to, const GradientSums& from) {
 /// shifts beyond tells a motion on the border of the search, which can be relied on, from one that
 /// goes further. sums: of all shifts within `reach`, as core/block_matching.hpp orders them. Where
 /// nothing changed the shifts farther than 1 px don't count: the result is the same for any reach.
-template <class Sum>
-[[nodiscard]] RegionMotion estimateMotion(std::span<const Sum> sums, int reach, int maxShift,
+[[nodiscard]] RegionMotion estimateMotion(std::span<const uint32_t> sums, int reach, int maxShift,
+                                          const GradientSums& gradients);
+[[nodiscard]] RegionMotion estimateMotion(std::span<const uint64_t> sums, int reach, int maxShift,
                                           const GradientSums& gradients);
 
 }  // namespace rg

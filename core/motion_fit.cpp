@@ -12,8 +12,6 @@ namespace {
 
 constexpr int kUnknowns = 6;
 constexpr int kMeanBits = 12;
-/// Beyond it a region moves as it does there.
-constexpr int kMostOffsetPx = 512;
 /// Pixels are not independent: so many say as much as one would.
 constexpr int64_t kCorrelation = 8;
 /// Least variance of a residual, in 1/256 grey levels squared: that of rounding, and more.
@@ -28,47 +26,16 @@ constexpr int kTurns = 3;
 
 using Row = std::array<int64_t, kUnknowns>;
 
-/// Sums over all cells, the displacements' derivatives taken in.
-struct Moments {
-  std::array<Row, kUnknowns> products{};
-  Row residuals{};
-  Row gradients{};
-  int64_t pixels = 0, seen = 0, r = 0, rr = 0, misfit = 0;
-};
-
-Point offsetOf(const MatchedCell& cell, Point centroid) {
-  const auto bounded = [](int d) { return std::clamp(d, -kMostOffsetPx, kMostOffsetPx); };
-  return {bounded(cell.x + kCellSize / 2 - centroid.x),
-          bounded(cell.y + kCellSize / 2 - centroid.y)};
-}
-
-Point displacementAt(const MotionFit& fit, Point offset, int reach) {
-  const int most = reach * kFine - 1;
-  const auto along = [&](int at, int slopeX, int slopeY) {
-    return std::clamp(at + (slopeX * offset.x + slopeY * offset.y) / kSlopeUnitPx, -most, most);
-  };
-  return {along(fit.at.x, fit.slopes[0], fit.slopes[1]),
-          along(fit.at.y, fit.slopes[2], fit.slopes[3])};
-}
-
 // Unknowns: x, y, then x along X and Y, then y along X and Y. Those of x go with the gradient gx,
-// those of y with gy. Moments stay below 2^41 · 2^18.
-void addCell(const FitSums& sums, Point offset, Moments& moments) {
-  const std::array<int64_t, kUnknowns> place = {1, 1, offset.x, offset.y, offset.x, offset.y};
-  constexpr std::array<bool, kUnknowns> kIsY = {false, true, false, false, true, true};
-  for (size_t i = 0; i < kUnknowns; ++i) {
-    for (size_t j = i; j < kUnknowns; ++j) {
-      const int64_t product = kIsY[i] != kIsY[j] ? sums.xy : kIsY[i] ? sums.yy : sums.xx;
-      moments.products[i][j] += product * place[i] * place[j];
-    }
-    moments.residuals[i] += (kIsY[i] ? sums.yr : sums.xr) * place[i];
-    moments.gradients[i] += (kIsY[i] ? sums.y : sums.x) * place[i];
-  }
-  moments.pixels += sums.pixels;
-  moments.seen += sums.seen;
-  moments.r += sums.r;
-  moments.rr += sums.rr;
-  moments.misfit += sums.misfit;
+// those of y with gy.
+constexpr std::array<bool, kUnknowns> kIsY = {false, true, false, false, true, true};
+/// What of the place an unknown goes with: 0 = nothing, 1 = x, 2 = y.
+constexpr std::array<size_t, kUnknowns> kPlace = {0, 0, 1, 2, 1, 2};
+
+int64_t productOf(const FitMoments& moments, size_t i, size_t j) {
+  constexpr size_t kProduct[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
+  const auto& products = kIsY[i] != kIsY[j] ? moments.xy : kIsY[i] ? moments.yy : moments.xx;
+  return products[kProduct[kPlace[i]][kPlace[j]]];
 }
 
 /// Means in 1/4096, positions in units of 32 px.
@@ -87,24 +54,24 @@ int64_t meanOf(int64_t sum, int64_t count, int places) {
 }
 
 // The shared change of brightness is eliminated: it takes the means out of all products.
-Equations normalise(const Moments& moments) {
+Equations normalise(const FitMoments& moments) {
   Equations e;
   const int64_t count = std::max<int64_t>(moments.pixels, 1);
   const auto places = [](size_t i) { return i < 2 ? 0 : 1; };
   const int64_t known = count * 256 / (count + kSteadyPixels);
   Row gradient{};
   for (size_t i = 0; i < kUnknowns; ++i)
-    gradient[i] = meanOf(moments.gradients[i], count, places(i));
+    gradient[i] = meanOf((kIsY[i] ? moments.y : moments.x)[kPlace[i]], count, places(i));
   const int64_t residual = meanOf(moments.r, count, 0);
   const auto common = [&](int64_t a, int64_t b) { return ((a * b) >> kMeanBits) * known / 256; };
   for (size_t i = 0; i < kUnknowns; ++i) {
     for (size_t j = i; j < kUnknowns; ++j) {
-      e.products[i][j] = meanOf(moments.products[i][j], count, places(i) + places(j)) -
+      e.products[i][j] = meanOf(productOf(moments, i, j), count, places(i) + places(j)) -
                          common(gradient[i], gradient[j]);
       e.products[j][i] = e.products[i][j];
     }
-    e.right[i] =
-        -2 * (meanOf(moments.residuals[i], count, places(i)) - common(gradient[i], residual));
+    const int64_t product = (kIsY[i] ? moments.yr : moments.xr)[kPlace[i]];
+    e.right[i] = -2 * (meanOf(product, count, places(i)) - common(gradient[i], residual));
   }
   // A residual in 1/256 squared is 2^16 of a grey level squared.
   const int64_t mean = residual >> kMeanBits;
@@ -139,27 +106,6 @@ Row solve(const Equations& e) {
       step[i + 1] = bounded(result.y);
     }
   return step;
-}
-
-/// What enters the frame has no match in the previous one.
-bool isVisible(const MatchedCell& cell, Point d, Size size) {
-  const auto isInside = [](int first, int shift, int length) {
-    const int end = std::min(first + kCellSize, length);
-    return first * kFine >= shift && (end - 1) * kFine - shift <= (length - 1) * kFine;
-  };
-  return isInside(cell.x, d.x, size.width) && isInside(cell.y, d.y, size.height);
-}
-
-Moments collect(const FitRegion& region, const FitPlane& plane, const MotionFit& fit) {
-  Moments moments;
-  for (const MatchedPart& part : region.parts)
-    forCells(part, [&](const MatchedCell& cell) {
-      const Point offset = offsetOf(cell, region.centroid);
-      const Point d = displacementAt(fit, offset, plane.previous->reach());
-      if (!isVisible(cell, d, plane.current.size)) return;
-      addCell(sumFit(cell, plane.current, *plane.previous, d, region.limit), offset, moments);
-    });
-  return moments;
 }
 
 void addExpectations(const MotionFit& fit, const MotionPrior& prior, int64_t pixels, Equations& e) {
@@ -213,7 +159,8 @@ MotionFit fitMotion(const FitRegion& region, const FitPlane& plane, const Motion
                       std::min(origin + kFine * 3 / 2, most));
   };
   for (int i = 0; i < steps; ++i) {
-    const Moments moments = collect(region, plane, fit);
+    const FitMoments moments =
+        sumMoments(region.parts, plane, {fit.at, fit.slopes, region.centroid}, region.limit);
     Equations equations = normalise(moments);
     fit.pixels = static_cast<uint32_t>(moments.pixels);
     fit.seen = static_cast<uint32_t>(moments.seen);

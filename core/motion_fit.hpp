@@ -8,15 +8,13 @@
 // Determinism: integers; blocks of two unknowns are solved in turn, a fixed number of times.
 #pragma once
 
-#include "core/fit_sums.hpp"
+#include "core/fit_moments.hpp"
 
 #include <array>
 #include <cstdint>
 #include <span>
 
 namespace rg {
-
-inline constexpr int kSlopeUnitPx = 32;
 
 /// How narrowly a vector is known: a quadratic form, 1/256 px⁻², below 2^30.
 struct Information {
@@ -38,12 +36,6 @@ struct Step {
 struct MotionPrior {
   Point at;            ///< 1/256 px.
   int64_t weight = 0;  ///< 1/256 px⁻²; 0 = nothing is expected.
-};
-
-/// The same picture before and after, as it is or smoothed.
-struct FitPlane {
-  ImageView<const uint8_t> current;
-  const PaddedLuma* previous = nullptr;
 };
 
 /// Whose motion is fitted.

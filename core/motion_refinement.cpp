@@ -117,7 +117,7 @@ FitRegion MotionRefinement::regionOf(size_t i, std::span<const RegionMotion> mot
   int64_t pixels = 0;
   for (const MatchedPart& part : parts) pixels += part.pixels();
   const int64_t mean = static_cast<int64_t>(motion[i].sad) * kFine / std::max<int64_t>(pixels, 1);
-  const auto limit = std::min<int64_t>(kFitFactor * mean + kLeastLimit, 255 * kFine);
+  const auto limit = std::min<int64_t>(kFitFactor * mean + kLeastLimit, kMostLimit);
   return {parts, {region.centroidX >> 8, region.centroidY >> 8}, static_cast<int>(limit), pixels};
 }
 

@@ -33,17 +33,10 @@ struct Group {
   size_t last = 0;
 };
 
-GradientSums gradientsOf(std::span<const MatchedPart> parts, ImageView<const uint8_t> luma,
-                         const PaddedLuma& previous) {
-  constexpr int kNoLimit = 255 * kFine;
-  GradientSums gradients;
-  for (const MatchedPart& part : parts) {
-    gradients.pixels += part.pixels();
-    forCells(part, [&](const MatchedCell& cell) {
-      const FitSums sums = sumFit(cell, luma, previous, {}, kNoLimit);
-      add(gradients, {sums.xx, sums.xy, sums.yy, 0});
-    });
-  }
+GradientSums gradientsOf(std::span<const MatchedPart> parts, ImageView<const uint8_t> luma) {
+  const GradientProducts sums = sumGradients(parts, luma);
+  GradientSums gradients{sums.xx, sums.xy, sums.yy, 0};
+  for (const MatchedPart& part : parts) gradients.pixels += part.pixels();
   return gradients;
 }
 
@@ -157,7 +150,7 @@ void CpuMotion::findStill(const Labels& labels, Motion& motion) {
     std::array<uint32_t, shiftCount(1)> sums{};
     addParts(parts, luma, {padded_, 1}, scratch_[static_cast<size_t>(thread)], sums);
     motion.regions[label - 1] =
-        estimateMotion<uint32_t>(sums, 1, 0, gradientsOf(parts, luma, padded_));
+        estimateMotion(std::span<const uint32_t>(sums), 1, 0, gradientsOf(parts, luma));
   });
   for (const MatchedPart& part : blocks_.parts()) {
     motion.matchedBlocks += part.pixels() / kBlockWidth;
@@ -186,7 +179,7 @@ void CpuMotion::matchBatch(size_t first, size_t last, const Labels& labels) {
     const auto parts = blocks_.parts().subspan(chunk.first, chunk.last - chunk.first);
     std::fill(sumsOf(slot).begin(), sumsOf(slot).end(), 0u);
     addParts(parts, luma, {padded_, reach_}, scratch_[static_cast<size_t>(thread)], sumsOf(slot));
-    gradients_[slot] = gradientsOf(parts, luma, padded_);
+    gradients_[slot] = gradientsOf(parts, luma);
   });
 }
 
@@ -206,7 +199,7 @@ void CpuMotion::closeBatch(size_t first, size_t last, Motion& motion) {
     begin = 1;
     if (goesOn && end == 1) return;
     motion.regions[labelOf(first) - 1u] =
-        estimateMotion<uint64_t>(carry_, reach_, maxShift_, carriedGradients_);
+        estimateMotion(std::span<const uint64_t>(carry_), reach_, maxShift_, carriedGradients_);
     std::fill(carry_.begin(), carry_.end(), 0u);
     carriedGradients_ = {};
   }
@@ -233,7 +226,7 @@ RegionMotion CpuMotion::closeGroup(const Group& group) {
     for (size_t i = 0; i < shifts_; ++i) total[i] += sums[i];
     add(gradients_[group.first], gradients_[slot]);
   }
-  return estimateMotion<uint32_t>(total, reach_, maxShift_, gradients_[group.first]);
+  return estimateMotion(total, reach_, maxShift_, gradients_[group.first]);
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ namespace rg::simd {
 constexpr int kLaneShifts = 8;
 constexpr int kMostBlocks = 64;
 /// Rows of shifts that are summed together: the 16-bit sums have so many rows beyond the last.
-constexpr int kRowsAtOnce = 6;
+constexpr int kRowsAtOnce = 9;
 static_assert(kMostBlocks * kBlockWidth * 255 <= 0xFFFF);
 
 /// The blocks of one part.

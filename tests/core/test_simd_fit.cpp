@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The sums that motion is fitted with against plain ones: every target of this machine, cells at
+// all of the frame's edges, fills that provoke overflows.
+#include "core/fit_moments.hpp"
+#include "core/pixel.hpp"
+#include "tests/core/simd_targets.hpp"
+
+#include <vector>
+
+namespace rg {
+namespace {
+
+constexpr int kReach = 9;
+
+uint32_t hashOf(int x, int y, uint32_t what) {
+  return mixHash(static_cast<uint32_t>(x), static_cast<uint32_t>(y), what);
+}
+
+constexpr int kFills = 5;
+int levelAt(int fill, int x, int y) {
+  switch (fill) {
+    case 0:
+      return 255;
+    case 1:
+      return 0;
+    case 2:
+      return (x + y) % 2 * 255;
+    case 3:
+      return static_cast<int>(100 + (hashOf(x / 3, y / 3, 2) & 63) + (hashOf(x, y, 3) & 7));
+    default:
+      return static_cast<int>(hashOf(x, y, 9) & 255);
+  }
+}
+
+Image<uint8_t> filled(Size size, int fill) {
+  Image<uint8_t> image(size);
+  for (int y = 0; y < size.height; ++y)
+    for (int x = 0; x < size.width; ++x) image.at(x, y) = static_cast<uint8_t>(levelAt(fill, x, y));
+  return image;
+}
+
+std::vector<MatchedPart> partsOf(Size size) {
+  std::vector<MatchedPart> parts;
+  for (int y = 0; y < size.height; y += kPartHeight)
+    for (int x = 0; x + kBlockWidth <= size.width; x += kPartWidth) {
+      uint64_t blocks = hashOf(x, y, 4) % 2 == 0
+                            ? ~uint64_t{0}
+                            : uint64_t{hashOf(x, y, 5)} << 32 | hashOf(x, y, 6);
+      if (const int rows = size.height - y; rows < kPartHeight)
+        blocks &= (uint64_t{1} << (2 * rows)) - 1;
+      if (x + kPartWidth > size.width) blocks &= 0x5555555555555555;
+      if (blocks != 0)
+        parts.push_back({blocks, static_cast<uint16_t>(x / kPartWidth),
+                         static_cast<uint16_t>(y / kPartHeight), 1});
+    }
+  return parts;
+}
+
+constexpr Size kSizes[] = {{4, 1}, {4, 3}, {9, 9}, {21, 65}, {47, 33}, {128, 8}, {64, 40}};
+
+TEST(SimdFit, MomentsArePlainOnes) {
+  const FitField fields[] = {{{0, 0}, {}, {10, 10}},
+                             {{3 * kFine, -8 * kFine}, {}, {10, 10}},
+                             {{77, -301}, {}, {30, 5}},
+                             {{-kFine + 1, 128}, {40, -13, 9, 250}, {20, 20}},
+                             {{kReach * kFine - 1, 1 - kReach * kFine}, {-5, 0, 0, 3}, {0, 30}}};
+  for (const Size size : kSizes)
+    for (int fill = 0; fill < kFills; ++fill)
+      for (int before = 0; before < kFills; before += 2) {
+        const Image<uint8_t> current = filled(size, fill);
+        PaddedLuma previous;
+        previous.build(filled(size, (fill + before) % kFills), kReach, Executor(1));
+        const FitPlane plane{current, &previous};
+        const auto parts = partsOf(size);
+        for (const FitField& field : fields)
+          for (const int limit : {0, 700, kMostLimit}) {
+            const FitMoments expected = sumMomentsPlainly(parts, plane, field, limit);
+            test::forEachTarget([&] {
+              EXPECT_EQ(sumMoments(parts, plane, field, limit), expected)
+                  << size.width << 'x' << size.height << " fill " << fill << ' ' << before
+                  << " limit " << limit << " at " << field.at.x << ", " << field.at.y;
+            });
+          }
+      }
+}
+
+TEST(SimdFit, CellsArePlainOnes) {
+  const Size size{31, 26};
+  const Image<uint8_t> current = filled(size, 3);
+  PaddedLuma previous;
+  previous.build(filled(size, 4), kReach, Executor(1));
+  for (int y = 0; y < size.height; y += kCellSize)
+    for (int x = 0; x + kBlockWidth <= size.width; x += kCellSize)
+      for (const Point d : {Point{}, {kFine, 0}, {100, -700}, {-2303, 2303}}) {
+        const int rows = std::min(size.height - y, kCellSize);
+        auto blocks = static_cast<uint16_t>((1u << (2 * rows)) - 1);
+        if (x + kCellSize > size.width) blocks &= 0x5555;
+        const MatchedCell cell{x, y, blocks};
+        const FitSums expected = sumFitPlainly(cell, current, previous, d, 3000);
+        test::forEachTarget([&] {
+          EXPECT_EQ(sumFit(cell, current, previous, d, 3000), expected) << x << ", " << y;
+        });
+      }
+}
+
+TEST(SimdFit, GradientsArePlainOnes) {
+  for (const Size size : kSizes)
+    for (int fill = 0; fill < kFills; ++fill) {
+      const Image<uint8_t> luma = filled(size, fill);
+      const auto parts = partsOf(size);
+      const GradientProducts expected = sumGradientsPlainly(parts, luma);
+      test::forEachTarget([&] { EXPECT_EQ(sumGradients(parts, luma), expected) << size.width; });
+    }
+}
+
+}  // namespace
+}  // namespace rg
