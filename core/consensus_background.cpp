@@ -220,6 +220,7 @@ void resize(const Picture& picture, SmoothPicture& out) {
 void resize(Size size, Verdicts& out) {
   out.raw.resize(size);
   out.strong.resize(size);
+  out.faint.resize(size);
 }
 
 void smoothRow(const Picture& picture, int y, SmoothPicture& out) {
@@ -231,7 +232,7 @@ void smoothRow(const Picture& picture, int y, SmoothPicture& out) {
 void judgeRow(const SmoothPicture& picture, const ConsensusBackground& model,
               const Tolerance& tolerance, int y, Verdicts& out) {
   simd::judgeRow(modelRow(picture, model, y), radiusRow(model, tolerance, y),
-                 {out.raw.row(y), out.strong.row(y)});
+                 {out.raw.row(y), out.strong.row(y), out.faint.row(y)});
 }
 
 }  // namespace
@@ -297,7 +298,7 @@ void learn(const SmoothPicture& picture, const LearntFrame& seen, const Consensu
       const uint32_t turn = static_cast<uint32_t>(y) + rate.frame;
       const ModelRow row = modelRow(picture, model, y);
       if (turn % noisePeriod == 0)
-        simd::followNoiseRow(row, {model.noise.row(y), seen.foreground.row(y)});
+        simd::followNoiseRow(row, {model.noise.row(y), seen.near.row(y)});
       if (!rate.isFirst) raiseUnrest(seen, y, model);
       if (turn % kCalmPeriod == 0) calmUnrest(seen.foreground, y, model);
       learner.learnRow(y);

@@ -71,6 +71,7 @@ struct Tolerance {
 struct Verdicts {
   BitMask raw;     ///< Fewer than two samples are within the radius.
   BitMask strong;  ///< Fewer than two are within 2.5 times the radius.
+  BitMask faint;   ///< Fewer than two are within 7/8 of the radius.
 };
 void judge(const SmoothPicture& picture, const ConsensusBackground& model,
            const Tolerance& tolerance, const Executor& executor, Verdicts& out);
@@ -93,11 +94,13 @@ struct ConsensusRate {
   int interval = 16;  ///< A background pixel remembers its colour every so many frames. 1 … 4096.
   bool isFirst = false;  ///< In the first frames unrest is not counted.
 };
-/// The cleaned foreground, and the verdicts before cleaning of this frame and the one before.
+/// The cleaned foreground, also with what is beside it, and the verdicts before cleaning of this
+/// frame and the one before.
 struct LearntFrame {
-  const BitMask &foreground, &raw, &previousRaw;
+  const BitMask &foreground, &near, &raw, &previousRaw;
 };
-/// Learns pixels that are no foreground. A row remembers in every 8th frame, 16 columns at once, so
+/// Learns pixels that are no foreground; noise only away from it, for beside it are its blurred
+/// edges. A row remembers in every 8th frame, 16 columns at once, so
 /// that a pixel does as often as the interval says. Noise follows the distance to the nearest of
 /// all samples in every 16th frame of a row, unrest falls in every 8th.
 void learn(const SmoothPicture& picture, const LearntFrame& seen, const ConsensusRate& rate,

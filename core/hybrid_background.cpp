@@ -5,6 +5,7 @@
 #include "core/consensus_background.hpp"
 #include "core/light_switch.hpp"
 #include "core/mask_cleaning.hpp"
+#include "core/mask_contour.hpp"
 #include "core/mask_gaps.hpp"
 #include "core/shadow.hpp"
 #include "core/still_parts.hpp"
@@ -15,7 +16,7 @@ namespace rg {
 namespace {
 
 constexpr int kUsualThreshold = 5;  ///< Grey levels that the darkest pixel may be off.
-constexpr int kBrightness = 18;     ///< Of 256: share of the brightness that is added to it.
+constexpr int kBrightness = 20;     ///< Of 256: share of the brightness that is added to it.
 constexpr int kMajority = 115;      ///< Of 256: share of foreground that keeps a pixel.
 constexpr int kMostGapStep = 14;    ///< Grey levels across a border that is no edge.
 
@@ -35,6 +36,7 @@ class HybridBackground final : public BackgroundMethodModel {
   void start(const BackgroundJob& job, Foreground& out);
   SceneEvent followLight(const BackgroundJob& job);
   void clean(const BackgroundJob& job);
+  void refine(const BackgroundJob& job);
   void findShadow(const BackgroundJob& job);
   void dissolveGhosts(const BackgroundJob& job);
   void learnFrame(const BackgroundJob& job);
@@ -50,8 +52,10 @@ class HybridBackground final : public BackgroundMethodModel {
   StillScratch stillScratch_;
   CleaningScratch scratch_;
   GapScratch gaps_;
+  ContourScratch contour_;
   std::array<Image<uint8_t>, 3> shown_;
-  BitMask across_, near_, dark_, shadow_;
+  BitMask across_, near_;  ///< near_: the foreground and two pixels round it.
+  BitMask dark_, shadow_;
   CastShadowScratch shadowScratch_;
   uint32_t frame_ = 0;
 };
@@ -98,13 +102,28 @@ SceneEvent HybridBackground::followLight(const BackgroundJob& job) {
   return before * 256 < pixels * kOtherSceneShare ? SceneEvent::None : SceneEvent::Changed;
 }
 
+uint32_t leastStrongPx(uint32_t pixels) {
+  return std::max(4u, pixels / 10000);
+}
+
+/// Not at the start: what is left of those who were in view must not stick to those who are, and
+/// is told from them by its contour.
+void HybridBackground::refine(const BackgroundJob& job) {
+  const auto pixels = static_cast<uint32_t>(mask_.size().area());
+  growFaint({smooth_, model_, verdicts_.faint, shown_}, job.executor, scratch_, contour_, mask_);
+  keepSupported(mask_, verdicts_.strong, leastStrongPx(pixels), scratch_);
+  fillHoles(mask_, pixels / 50, scratch_);
+  trimBorder(*job.picture, smooth_, model_, toleranceOf(job.params), job.executor, contour_, mask_);
+}
+
 void HybridBackground::clean(const BackgroundJob& job) {
   const auto pixels = static_cast<uint32_t>(mask_.size().area());
   const int radius = pixels < 40000 ? 1 : pixels < 200000 ? 2 : 3;
   keepMajority(verdicts_.raw, radius, kMajority, job.executor, scratch_, mask_);
-  keepSupported(mask_, verdicts_.strong, std::max(4u, pixels / 10000), scratch_);
+  keepSupported(mask_, verdicts_.strong, leastStrongPx(pixels), scratch_);
   fillHoles(mask_, pixels / 50, scratch_);
   fillUnedged(smooth_.planes[0], kMostGapStep, pixels / 5, job.executor, gaps_, mask_);
+  if (!isFirst(job)) refine(job);
   dropSmallParts(mask_, std::max(8u, pixels / 4000), scratch_);
 }
 
@@ -124,7 +143,6 @@ void HybridBackground::dissolveGhosts(const BackgroundJob& job) {
 
 void HybridBackground::findShadow(const BackgroundJob& job) {
   if (!job.params.findsShadows) return shadow_.clear();
-  thicken(mask_, 2, job.executor, across_, near_);
   paintModelAt(near_, model_, job.executor, shown_);
   const auto planes = [&](const std::array<Image<uint8_t>, 3>& from) {
     const bool isGrey = model_.channels == 1;
@@ -140,7 +158,9 @@ void HybridBackground::learnFrame(const BackgroundJob& job) {
   const auto usual =
       std::clamp<int64_t>(job.clock.frames(job.params.learningTimeS) / kSamples, 2, 4096);
   const ConsensusRate rate{frame_, isFirst(job) ? 3 : static_cast<int>(usual), isFirst(job)};
-  learn(smooth_, {mask_, verdicts_.raw, previousRaw_}, rate, job.executor, model_);
+  thicken(mask_, 2, job.executor, across_, near_);
+  learn(smooth_, {mask_, isFirst(job) ? mask_ : near_, verdicts_.raw, previousRaw_}, rate,
+        job.executor, model_);
   std::swap(verdicts_.raw, previousRaw_);
 }
 

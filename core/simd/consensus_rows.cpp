@@ -140,21 +140,25 @@ void judgeWords(const ModelRow& row, const RadiusRow& radius, const VerdictRow& 
   const size_t lanes = hn::Lanes(kBytes);
   for (int begin = 0; begin < row.width; begin += 64) {
     prefetch(row, begin);
-    uint8_t raw[16], strong[16];  // StoreMaskBits may write eight bytes.
+    uint8_t raw[16], strong[16], faint[16];  // StoreMaskBits may write eight bytes.
     for (size_t i = 0; i < 64; i += lanes) {
       const int x = begin + static_cast<int>(i);
       const V reach = radiusOf(hn::LoadU(kBytes, row.pixels[0] + x), radius, x);
       const V half = hn::ShiftRight<1>(reach);
       const V wide =
           hn::Min(hn::SaturatedAdd(hn::SaturatedAdd(reach, reach), half), hn::Set(kBytes, 254));
-      const V second = secondDistance<channels>(row, reach, x);
+      const V eighth = hn::ShiftRight<3>(hn::SaturatedAdd(reach, hn::Set(kBytes, 7)));
+      const V inner = hn::Sub(reach, eighth);
+      const V second = secondDistance<channels>(row, inner, x);
       const auto isRaw = hn::Ne(hn::Max(second, reach), reach);
       const auto isFar = hn::Ne(hn::Max(second, wide), wide);
       hn::StoreMaskBits(kBytes, isRaw, raw + i / 8);
+      hn::StoreMaskBits(kBytes, hn::Ne(hn::Max(second, inner), inner), faint + i / 8);
       hn::StoreMaskBits(kBytes, hn::And(isRaw, isFar), strong + i / 8);
     }
     std::memcpy(out.raw + begin / 64, raw, 8);
     std::memcpy(out.strong + begin / 64, strong, 8);
+    std::memcpy(out.faint + begin / 64, faint, 8);
   }
   plain::clearBeyond(row.width, out);
 }
@@ -225,6 +229,7 @@ void plain::clearBeyond(int width, const VerdictRow& out) {
   const uint64_t columns = (uint64_t{1} << width % 64) - 1;
   out.raw[width / 64] &= columns;
   out.strong[width / 64] &= columns;
+  out.faint[width / 64] &= columns;
 }
 
 namespace {
@@ -248,7 +253,8 @@ HWY_EXPORT(meanOfFour);
 }  // namespace
 
 void plain::judgeRow(const ModelRow& row, const RadiusRow& radius, const VerdictRow& out) {
-  for (int word = 0; word * 64 < row.width; ++word) out.raw[word] = out.strong[word] = 0;
+  for (int word = 0; word * 64 < row.width; ++word)
+    out.raw[word] = out.strong[word] = out.faint[word] = 0;
   for (int x = 0; x < row.width; ++x) {
     const int reach = radiusAt(radius, row.pixels[0][x], x);
     int nearest = 255, second = 255;
@@ -260,6 +266,7 @@ void plain::judgeRow(const ModelRow& row, const RadiusRow& radius, const Verdict
     const bool isRaw = second > reach, isFar = second > std::min(254, 5 * reach / 2);
     out.raw[x / 64] |= uint64_t{isRaw} << x % 64;
     out.strong[x / 64] |= uint64_t{isRaw && isFar} << x % 64;
+    out.faint[x / 64] |= uint64_t{second > faintRadius(reach)} << x % 64;
   }
 }
 

@@ -34,14 +34,19 @@ struct RadiusRow {
   const uint8_t *noise, *unrest;
   uint8_t least, brightness;
 };
+/// 7/8 of a radius, rounded down, so that small ones differ too.
+[[nodiscard]] constexpr int faintRadius(int radius) {
+  return radius - ((radius < 248 ? radius + 7 : 255) >> 3);
+}
 [[nodiscard]] constexpr int radiusAt(const RadiusRow& radius, uint8_t pixel, int x) {
   const int sum = radius.least + (pixel * radius.brightness >> 8) + (radius.noise[x] >> 2) +
                   (radius.unrest[x] >> 4);
   return sum < 255 ? sum : 255;
 }
 
+/// Where fewer than two samples are within the radius, 2.5 times the radius, 7/8 of it.
 struct VerdictRow {
-  uint64_t *raw, *strong;  ///< Fewer than two samples within the radius, and within 2.5 times that.
+  uint64_t *raw, *strong, *faint;
 };
 
 /// Noise follows the distance to the nearest sample where `kept` is 0.

@@ -32,9 +32,9 @@ GATES = {  # Set: figures that must be reached with default properties.
     'cdnet_office': [('F', AT_LEAST, 0.93)],
     'sbi_IBMtest2': [('F', AT_LEAST, 0.93)],
     'sbi_CAVIAR2': [('F', AT_LEAST, 0.80)],
-    'wallflower/WavingTrees': [('TE8', AT_MOST, 300)],
+    'wallflower/WavingTrees': [('TE8', AT_MOST, 200)],
     'wallflower*/ForegroundAperture': [('TE8', AT_MOST, 1000)],
-    'wallflower/TimeOfDay': [('TE8', AT_MOST, 500)],
+    'wallflower/TimeOfDay': [('TE8', AT_MOST, 450)],
     'middlebury_flow/*': [('EPE_reliable_half', AT_MOST, 0.6), ('regions', AT_LEAST, 60),
                           ('covered', AT_LEAST, 0.95)],
 }

@@ -98,6 +98,19 @@ TEST(Consensus, StrongPixelsAreTwoAndAHalfTimesAsFar) {
   EXPECT_EQ(verdicts(76, 10), std::pair(true, true));
 }
 
+TEST(Consensus, FaintPixelsAreFartherThanSevenEighthsOfTheRadius) {
+  auto model = started(flat({1, 1}, 50));
+  model.noise.fill(0);
+  const auto isFaint = [&](int level, int least) {
+    return judged(flat({1, 1}, level), model, {least, 0}).faint.at(0, 0);
+  };
+  EXPECT_FALSE(isFaint(64, 16));
+  EXPECT_TRUE(isFaint(65, 16));
+  EXPECT_TRUE(isFaint(200, 16));
+  EXPECT_FALSE(isFaint(54, 5));
+  EXPECT_TRUE(isFaint(55, 5));
+}
+
 /// Learns a level in all pixels or none for some frames; returns those that don't know it then.
 uint32_t strangersAfter(bool isForeground, uint32_t frames, int threads = 1) {
   const Size size{70, 40};
@@ -108,7 +121,8 @@ uint32_t strangersAfter(bool isForeground, uint32_t frames, int threads = 1) {
   quiet.clear();
   for (int y = 0; y < size.height; ++y) setColumns(foreground.row(y), 0, size.width, isForeground);
   for (uint32_t frame = 1; frame <= frames; ++frame)
-    learn(picture, {foreground, quiet, quiet}, {frame, 8, false}, Executor(threads), model);
+    learn(picture, {foreground, foreground, quiet, quiet}, {frame, 8, false}, Executor(threads),
+          model);
   model.noise.fill(0);
   return countSet(judged(picture, model, {0, 0}).raw);
 }
@@ -118,13 +132,27 @@ TEST(Consensus, LearnsBackgroundAndNothingElse) {
   EXPECT_EQ(strangersAfter(true, 150), 70u * 40u);
 }
 
+TEST(Consensus, NoiseIsNotLearntBesideTheForeground) {
+  const Size size{64, 16};
+  auto model = started(flat(size, 50));
+  model.noise.fill(0);
+  BitMask quiet(size), near(size);
+  quiet.clear();
+  near.clear();
+  near.set(5, 3);
+  for (uint32_t frame = 1; frame <= 16; ++frame)
+    learn(flat(size, 60), {quiet, near, quiet, quiet}, {frame, 4096, false}, Executor(1), model);
+  EXPECT_EQ(model.noise.at(5, 3), 0);
+  EXPECT_GT(model.noise.at(6, 3), 0);
+}
+
 TEST(Consensus, TheRateIsThePartOfPixelsLearntInAFrame) {
   const Size size{640, 480};
   auto model = started(flat(size, 50));
   BitMask quiet(size);
   quiet.clear();
   const auto picture = flat(size, 120);
-  learn(picture, {quiet, quiet, quiet}, {1, 10, false}, Executor(1), model);
+  learn(picture, {quiet, quiet, quiet, quiet}, {1, 10, false}, Executor(1), model);
   int64_t learnt = 0;
   for (int row = 0; row < model.samples.height(); ++row)
     learnt +=
@@ -142,7 +170,7 @@ TEST(Consensus, RestlessPixelsLearnTwiceAsFast) {
   for (const int unrest : {100, 200}) {
     auto model = started(flat(size, 50));
     model.unrest.fill(static_cast<uint8_t>(unrest));
-    learn(picture, {quiet, quiet, quiet}, {8, 10, false}, Executor(1), model);
+    learn(picture, {quiet, quiet, quiet, quiet}, {8, 10, false}, Executor(1), model);
     for (int row = 0; row < model.samples.height(); ++row)
       learnt[unrest > 127] +=
           std::count(model.samples.row(row), model.samples.row(row) + model.samples.width(), 120);
@@ -168,7 +196,7 @@ ConsensusBackground modelAfterFrames(const Executor& executor) {
       return Rgb{level, static_cast<uint8_t>(y), 30};
     }));
     judge(picture, model, {8, 18}, executor, verdicts);
-    learn(picture, {mask, verdicts.raw, before}, {frame, 4, frame < 5}, executor, model);
+    learn(picture, {mask, mask, verdicts.raw, before}, {frame, 4, frame < 5}, executor, model);
     std::swap(verdicts.raw, before);
   }
   return model;

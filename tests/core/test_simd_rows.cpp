@@ -260,11 +260,11 @@ struct Scene {
     return {noise.row(0), unrest.row(0), static_cast<uint8_t>(least),
             static_cast<uint8_t>(brightness)};
   }
-  [[nodiscard]] VerdictRow out() { return {raw.data(), strong.data()}; }
+  [[nodiscard]] VerdictRow out() { return {raw.data(), strong.data(), faint.data()}; }
 
   Image<uint8_t> pixels, samples, noise, unrest;
   ModelRow row;
-  std::array<uint64_t, 8> raw{}, strong{};
+  std::array<uint64_t, 8> raw{}, strong{}, faint{};
 };
 
 /// Calls check(expected, scene) with two scenes alike, of every width.
@@ -292,6 +292,7 @@ TEST(SimdRows, VerdictsAreThePlainOnes) {
     simd::judgeRow(scene.row, scene.radius(least, brightness), scene.out());
     ASSERT_EQ(scene.raw, expected.raw) << "least " << least;
     ASSERT_EQ(scene.strong, expected.strong) << "least " << least;
+    ASSERT_EQ(scene.faint, expected.faint) << "least " << least;
   });
 }
 
