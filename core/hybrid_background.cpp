@@ -7,6 +7,7 @@
 #include "core/mask_cleaning.hpp"
 #include "core/mask_contour.hpp"
 #include "core/mask_gaps.hpp"
+#include "core/moved_things.hpp"
 #include "core/shadow.hpp"
 #include "core/still_parts.hpp"
 
@@ -50,6 +51,7 @@ class HybridBackground final : public BackgroundMethodModel {
   StillPixels still_;
   BitMask ghosts_;
   StillScratch stillScratch_;
+  MovedScratch moved_;
   CleaningScratch scratch_;
   GapScratch gaps_;
   ContourScratch contour_;
@@ -137,6 +139,8 @@ void HybridBackground::dissolveGhosts(const BackgroundJob& job) {
   forSetPixels(mask_, 0, mask_.height(), [&](int x, int y) {
     if (still_.ages.at(x, y) >= absorbFrames) ghosts_.set(x, y);
   });
+  if (frame_ % 8 == 0)
+    addMoved(smooth_, model_, mask_, still_, job.clock.frames(3.0), moved_, ghosts_);
   replaceWhere(ghosts_, smooth_, job.executor, model_);
   remove(ghosts_, mask_);
 }
