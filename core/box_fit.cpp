@@ -78,7 +78,8 @@ Box bestPlace(const Evidence& e, const FitTask& task, FitScratch& s) {
     for (int dx = -task.reachX; dx <= task.reachX; ++dx) {
       const Box place{box.x + dx, box.y + dy, box.width, box.height};
       const Box core{place.x + margin, place.y, place.width - 2 * margin, place.height};
-      const int64_t gain = int64_t{sums.inside(place)} + sums.inside(core);
+      const int64_t gain =
+          int64_t{sums.inside(place)} + (task.isOfOwnSize ? sums.inside(place) : sums.inside(core));
       if (gain < -std::get<0>(bestKey)) continue;
       // A shift by half the width costs a quarter of what a full box gains.
       const int64_t far = int64_t{kForegroundGain} *
@@ -127,9 +128,9 @@ void assignCells(const Evidence& e, std::span<const FitTask> tasks, std::vector<
         if (mine != 0) {
           const FitTask& other = tasks[mine - 1u];
           const auto claimOf = [&](const FitTask& t) {
-            return t.bonus[e.bin[cell]] + 2 * trustOf(e, t, cell);
+            return std::tuple(trustOf(e, t, cell), -t.tier, int{t.bonus[e.bin[cell]]});
           };
-          if (other.tier < task.tier || claimOf(other) >= claimOf(task)) continue;
+          if (claimOf(other) >= claimOf(task)) continue;
         }
         mine = static_cast<uint16_t>(i + 1);
       }

@@ -17,6 +17,7 @@ constexpr int kUnit = kPositionUnit;
 constexpr uint32_t kTrustedSamples = 8;
 constexpr uint32_t kSteadySamples = 12;
 constexpr int64_t kCentreSamples = 31;
+constexpr uint16_t kRigidSway = 20;  // People's strides are beyond this.
 
 int32_t toInt(int64_t value) {
   return static_cast<int32_t>(std::clamp<int64_t>(value, INT32_MIN / 4, INT32_MAX / 4));
@@ -48,11 +49,11 @@ bool isLike(const Box& box, const Extent& size) {
 }
 
 /// Whether a box lacks an end of what is expected there.
-bool isCutAtOneEnd(const Track& track, const Box& box) {
+bool isCutAtOneEnd(const Track& track, const Box& box, bool isRigid) {
   const int64_t width = track.size.width;
   const int64_t atLeft = std::abs(int64_t{box.x} * kUnit - (track.x - width / 2));
   const int64_t atRight = std::abs(int64_t{box.right()} * kUnit - (track.x + width / 2));
-  return 6 * int64_t{box.width} * kUnit < 5 * width &&
+  return 12 * int64_t{box.width} * kUnit < (isRigid ? 11 : 10) * width &&
          4 * std::min(atLeft, atRight) <= std::max(atLeft, atRight);
 }
 
@@ -156,8 +157,10 @@ void Tracker::update(const Evidence& evidence, std::span<const Group> groups, in
   findBlobs(evidence);
   giveBlobs(evidence);
   giveGroups(evidence, groups);
+  countCells(evidence);
+  dropStrangers(evidence);
   findNewcomers(evidence, params);
-  sight(evidence);
+  sight();
   meet();
   for (size_t i = 0; i < tracks_.size(); ++i) correct(i, stepNs);
   rejoin(evidence);
@@ -176,7 +179,9 @@ void Tracker::lookForTracks(const Evidence& e, int64_t stepNs) {
   std::vector<size_t>& order = taskTrack_;
   for (size_t i = 0; i < tracks_.size(); ++i)
     if (tracks_[i].state != ObjectState::Lost) order.push_back(i);
-  const auto tierOf = [](const Track& t) { return t.unseenNs > 0 ? 2 : t.isConfirmed ? 0 : 1; };
+  const auto tierOf = [&](const Track& t) {
+    return t.unseenNs > 0 ? 2 : t.isConfirmed && isSizeKnown(t) ? 0 : 1;
+  };
   std::sort(order.begin(), order.end(), [&](size_t a, size_t b) {
     const Track &p = tracks_[a], &q = tracks_[b];
     return std::tuple(tierOf(p), -p.foot, p.id) < std::tuple(tierOf(q), -q.foot, q.id);
@@ -198,6 +203,7 @@ void Tracker::lookForTracks(const Evidence& e, int64_t stepNs) {
     task.reachX = track.hits < 3 ? std::max(1, width) : within(width / 2);
     task.reachY = track.hits < 3 ? std::max(1, height / 3) : within(height / 5);
     task.tier = tierOf(track);
+    task.isOfOwnSize = isRigid(track);
     for (int bin = 0; bin < kColourBins && track.look.frames > 0; ++bin) {
       const int share = shareOf(track.look, bin);
       task.bonus[static_cast<size_t>(bin)] = share > kFullMatch / 12    ? 2
@@ -217,7 +223,8 @@ void Tracker::lookForTracks(const Evidence& e, int64_t stepNs) {
   for (size_t t = 0; t < tasks_.size(); ++t) sightings_[taskTrack_[t]].task = static_cast<int>(t);
 }
 
-void Tracker::sight(const Evidence& e) {
+/// What each track owns of its fitted box.
+void Tracker::countCells(const Evidence& e) {
   for (size_t i = 0; i < tracks_.size(); ++i) {
     Sighting& s = sightings_[i];
     if (s.task < 0) continue;
@@ -235,6 +242,13 @@ void Tracker::sight(const Evidence& e) {
           ++s.othersCells;
         }
       }
+  }
+}
+
+void Tracker::sight() {
+  for (size_t i = 0; i < tracks_.size(); ++i) {
+    Sighting& s = sightings_[i];
+    if (s.task < 0) continue;
     const Track& track = tracks_[i];
     const bool isSole = blobOf_[i] != 0 && soleTrack_[blobOf_[i]] == i + 1;
     const bool isUsual =
@@ -243,7 +257,7 @@ void Tracker::sight(const Evidence& e) {
     s.isSole = isSole;
     // People's strides, of which a uniform scene is full, are no reason to distrust a box.
     s.isCutOff = isSole && !scale_.isUniform() && track.sizeSamples >= kTrustedSamples &&
-                 isCutAtOneEnd(track, s.box);
+                 isCutAtOneEnd(track, s.box, isRigid(track));
     s.isWhole = !s.box.isEmpty() && isUsual && !s.isCutOff && 5 * s.othersCells < s.boxCells;
   }
 }
@@ -251,6 +265,11 @@ void Tracker::sight(const Evidence& e) {
 /// Until then a track is what its blob is: it grows with it, and nothing else begins beside it.
 bool Tracker::isSizeKnown(const Track& track) const {
   return scale_.isUniform() || track.sizeSamples >= kTrustedSamples;
+}
+
+/// Whether its box hardly changes: what is missing of it is hidden.
+bool Tracker::isRigid(const Track& track) const {
+  return !scale_.isUniform() && isSizeKnown(track) && track.sway < kRigidSway;
 }
 
 /// Where a track is that is seen whole: by the mean of its pixels, which tells fractions of a pixel

@@ -48,6 +48,7 @@ struct Track {
   uint32_t centreSamples = 0;           ///< Frames from which that was learnt.
   int32_t steadyX = 0, steadyY = 0;     ///< Its speed over the last half second or so.
   bool isWhole = false;                 ///< All of it is seen in this frame.
+  uint16_t sway = 64;                   ///< By how much its box changes, in 1/256 of its size.
   uint16_t fill = 150;                  ///< Share of its box that is foreground, in 1/256.
   bool isSeen = false;                  ///< In this frame.
   uint64_t company = 0;                 ///< Smallest id of those that it shares a blob with.
@@ -103,6 +104,7 @@ struct Newcomer {
   uint32_t cells = 0;
   uint64_t parent = 0;  ///< Id of the track whose blob it comes out of, 0 = none.
   bool isAtBorder = false;
+  bool isPart = false;  ///< Of a track that is missing.
   LookCounts look;
   Look appearance;
 };
@@ -160,12 +162,16 @@ class Tracker {
   void limitTracks(const Evidence& evidence);
   void reclaimExpected(const Evidence& evidence);
   void spreadOwners(const Evidence& evidence);
-  void sight(const Evidence& evidence);
+  void countCells(const Evidence& evidence);
+  void dropStrangers(const Evidence& evidence);
+  void sight();
   [[nodiscard]] bool isSizeKnown(const Track& track) const;
+  [[nodiscard]] bool isRigid(const Track& track) const;
   void findNewcomers(const Evidence& evidence, const TrackerParams& params);
   void describeNewcomers(const Evidence& evidence);
   void giveFragments(const Evidence& evidence);
   void giveNewcomers(const Evidence& evidence);
+  [[nodiscard]] bool isPartOf(const Newcomer& newcomer, const Track& track) const;
   void dropSmall(const Evidence& evidence, const TrackerParams& params);
   void rejoin(const Evidence& evidence);
   [[nodiscard]] int64_t rejoinCost(const Track& track, const Newcomer& newcomer) const;

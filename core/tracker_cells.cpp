@@ -98,8 +98,6 @@ void Tracker::reclaimExpected(const Evidence& e) {
     const uint16_t expected = e.expected[cell], owner = owner_[cell];
     if (expected == 0 || expected == owner || blobOf_[expected - 1u] != blobScratch_.label[cell])
       return;
-    const bool isOwnersLoss = owner != 0 && !isSizeKnown(tracks_[owner - 1u]);
-    if (owner != 0 && !(isOwnersLoss && isSizeKnown(tracks_[expected - 1u]))) return;
     if (limits_[expected - 1u].contains({x, y})) owner_[cell] = expected;
   });
 }
@@ -152,8 +150,24 @@ void Tracker::giveGroups(const Evidence& e, std::span<const Group> groups) {
           owner_[cell] = mine;
       }
   }
+  // Where sizes say nothing, a group of several is shared cell by cell.
+  const auto isOwned = [&](size_t g) {
+    const uint32_t votes = majorities_[g].votes, cells = e.cellsOf[g];
+    return votes > 0 && (scale_.isUniform() ? 5 * votes >= 3 * cells : 20 * votes >= 19 * cells);
+  };
+  if (!scale_.isUniform())
+    e.forForeground([&](size_t cell, int x, int y) {
+      if (owner_[cell] == 0 || isOwned(e.group[cell] - 1u)) return;
+      Sighting& s = sightings_[owner_[cell] - 1u];
+      const Box box =
+          intersect({x * e.stepPx, y * e.stepPx, e.stepPx, e.stepPx}, boundsOf(e.frame));
+      s.box = unite(s.box, box);
+      s.areaPx += static_cast<uint64_t>(box.area());
+      s.sumX += box.area() * (2 * box.x + box.width - 1) * 128;
+      s.sumY += box.area() * (2 * box.y + box.height - 1) * 128;
+    });
   for (size_t g = 0; g < groups.size(); ++g) {
-    if (5 * majorities_[g].votes < 3 * e.cellsOf[g] || majorities_[g].votes == 0) continue;
+    if (!isOwned(g)) continue;
     Sighting& s = sightings_[majorities_[g].value - 1u];
     s.box = unite(s.box, groups[g].box);
     s.areaPx += groups[g].areaPx;

@@ -10,6 +10,9 @@
 namespace rg {
 namespace {
 
+constexpr int kStranger = 35;       // Percent; who is themselves is more alike than this.
+constexpr uint32_t kKnownLook = 8;  // Frames after which a look can be told from another.
+constexpr uint32_t kLeastCells = 16;
 constexpr uint32_t kLooks = 4;            // Seen apart so often, both are judged.
 constexpr int kMargin = kFullMatch / 12;  // By so much the exchange has to look better.
 constexpr size_t kMaxEncounters = 512;
@@ -26,6 +29,28 @@ void exchangeIdentities(Track& a, Track& b) {
 }
 
 }  // namespace
+
+/// Who stands where somebody was expected but looks like nothing that was seen of them is somebody
+/// else: one who comes in where the other left.
+void Tracker::dropStrangers(const Evidence& e) {
+  bool hasStrangers = false;
+  for (size_t i = 0; i < tracks_.size(); ++i) {
+    Sighting& s = sightings_[i];
+    const Track& track = tracks_[i];
+    const bool isAlone = blobOf_[i] != 0 && soleTrack_[blobOf_[i]] == i + 1;
+    if (!isAlone || track.look.frames < kKnownLook || s.cells < kLeastCells) continue;
+    Look now;
+    learn(now, s.look);
+    if (100 * similarity(track.look, now) >= kStranger * kFullMatch) continue;
+    s = {};
+    blobOf_[i] = 0;
+    hasStrangers = true;
+  }
+  if (!hasStrangers) return;
+  e.forForeground([&](size_t cell, int, int) {
+    if (owner_[cell] != 0 && sightings_[owner_[cell] - 1u].task < 0) owner_[cell] = 0;
+  });
+}
 
 /// Remembers the pairs of tracks that overlap in one blob.
 void Tracker::meet() {

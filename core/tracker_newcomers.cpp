@@ -136,6 +136,23 @@ void Tracker::describeNewcomers(const Evidence& e) {
   }
 }
 
+/// Whether a newcomer seems to be a part of a track that comes out from behind something: it lies
+/// where the track is expected and has its colours.
+bool Tracker::isPartOf(const Newcomer& newcomer, const Track& track) const {
+  if (!track.isConfirmed || track.unseenNs == 0 || track.sizeSamples == 0) return false;
+  const Box box = track.box();
+  const Box near = inflate(box, std::max(stepPx_, std::min(box.width, box.height) / 4));
+  if (intersect(near, newcomer.box) != newcomer.box) return false;
+  uint32_t cells = 0, alike = 0;
+  for (const auto& band : newcomer.look.bins)
+    for (int bin = 0; bin < kColourBins; ++bin) {
+      const uint32_t count = band[static_cast<size_t>(bin)];
+      cells += count;
+      alike += shareOf(track.look, bin) > kFullMatch / 32 ? count : 0;
+    }
+  return 10 * alike >= 7 * cells;
+}
+
 /// Drops what is too small to be an object here; what sticks out of a track has to be a whole one.
 void Tracker::dropSmall(const Evidence& e, const TrackerParams& params) {
   const int64_t cellPx = int64_t{e.stepPx} * e.stepPx;
@@ -143,6 +160,7 @@ void Tracker::dropSmall(const Evidence& e, const TrackerParams& params) {
     const int64_t areaPx = n.cells * cellPx;
     if (params.minAreaPx > 0) return areaPx < params.minAreaPx;
     if (areaPx < clutter_.leastPx()) return true;
+    if (n.isPart) return false;
     if (!scale_.isKnown()) {
       const auto parent = std::find_if(tracks_.begin(), tracks_.end(),
                                        [&](const Track& t) { return t.id == n.parent; });
@@ -161,6 +179,9 @@ void Tracker::dropSmall(const Evidence& e, const TrackerParams& params) {
     return 5 * areaPx < usual || 2 * height < expected.height || 5 * width < 2 * expected.width;
   };
   // Kept in place: newcomerOf_ points here.
+  for (Newcomer& newcomer : newcomers_)
+    newcomer.isPart = std::any_of(tracks_.begin(), tracks_.end(),
+                                  [&](const Track& track) { return isPartOf(newcomer, track); });
   for (Newcomer& newcomer : newcomers_)
     if (isSmall(newcomer)) newcomer.cells = 0;
 }
@@ -189,6 +210,7 @@ void Tracker::rejoin(const Evidence& e) {
   for (size_t n = 0; n < newcomers_.size(); ++n) {
     if (newcomers_[n].cells == 0 || trackOfNewcomer_[n] >= 0 || tracks_.size() >= kMaxTracks)
       continue;
+    if (newcomers_[n].isPart) continue;  // Of somebody who is there already.
     trackOfNewcomer_[n] = static_cast<int>(tracks_.size());
     begin(newcomers_[n]);
   }
@@ -205,6 +227,7 @@ int64_t Tracker::rejoinCost(const Track& track, const Newcomer& newcomer) const 
   const int64_t gate = std::max<int64_t>(
       1, track.size.height / 2 + track.size.height * (track.unseenNs / 1'000'000) * 3 / 2000);
   if (far > gate) return kForbidden;
+  if (newcomer.isPart && isPartOf(newcomer, track)) return 1000 * int64_t{far} / gate;
   const int64_t height = int64_t{newcomer.box.height} * kUnit;
   if (!newcomer.isAtBorder && (2 * height < track.size.height || height > 2 * track.size.height))
     return kForbidden;
@@ -257,7 +280,7 @@ uint64_t Tracker::parentOf(const Newcomer& newcomer) const {
   for (const Track& track : tracks_) {
     const Box box = track.box();
     const int64_t shared = intersect(inflate(box, box.width / 3), newcomer.box).area();
-    if (!track.isConfirmed || !track.isSeen || shared <= most) continue;
+    if (!track.isConfirmed || track.state == ObjectState::Lost || shared <= most) continue;
     most = shared;
     parent = track.id;
   }

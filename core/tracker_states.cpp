@@ -45,12 +45,22 @@ void Tracker::learnSize(size_t index, int64_t stepNs, const Evidence& e) {
                        4 * s.box.width * kUnit > 5 * track.size.width ||
                        5 * s.box.height * kUnit < 4 * track.size.height ||
                        4 * s.box.height * kUnit > 5 * track.size.height;
-  if (isCut || (isOther && !isSizeKnown(track))) {
+  // Nothing says where it ends beside somebody else.
+  const bool isShared = !scale_.isUniform() && !s.isSole;
+  if (isCut || isShared || (isOther && !isSizeKnown(track))) {
     if (!isSizeKnown(track)) track.size = {s.box.width * kUnit, s.box.height * kUnit};
     return;
   }
-  const int64_t known = std::min<int64_t>(track.sizeSamples, scale_.isUniform() ? 12 : 4);
+  const int64_t known = std::min<int64_t>(track.sizeSamples, isRigid(track)       ? 24
+                                                             : scale_.isUniform() ? 12
+                                                                                  : 4);
   const int64_t weight = scale_.isUniform() ? std::max<int64_t>(known, 4) : known;
+  const auto share = [](int64_t seen, int64_t usual) {
+    return std::abs(seen * kUnit - usual) * 256 / std::max<int64_t>(usual, 1);
+  };
+  const int64_t change =
+      share(s.box.width, track.size.width) + share(s.box.height, track.size.height);
+  track.sway = static_cast<uint16_t>(mix(track.sway, std::min<int64_t>(change, 256), 7));
   track.size.width = mix(track.size.width, int64_t{s.box.width} * kUnit, weight);
   track.size.height = mix(track.size.height, int64_t{s.box.height} * kUnit, weight);
   ++track.sizeSamples;

@@ -195,6 +195,49 @@ TEST(Objects, WhatComesInBesideAKnownObjectIsAnObjectOfItsOwn) {
   EXPECT_GE(overlap(told[1]->box, {148, 152, 60, 50}), 0.7);
 }
 
+TEST(Objects, WhoComesInWhereAnotherLeavesIsSomebodyElse) {
+  Scene scene;
+  std::shared_ptr<const Objects> objects;
+  for (int i = 0; i < 90; ++i)
+    objects = scene.show(
+        {{{40 + 4 * i, 100, 30, 80}, kRed}, {{std::max(230, 550 - 4 * i), 96, 40, 70}, kGreen}});
+  const auto told = toldOf(*objects);
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_NE(told[0]->id, 1u);
+  EXPECT_GE(overlap(told[0]->box, {230, 96, 40, 70}), 0.8);
+}
+
+TEST(Objects, AKnownObjectKeepsItsSizeInCompany) {
+  Scene scene;
+  for (int i = 0; i < 60; ++i) {
+    const Box first{10 + 2 * i, 100, 40, 60}, second{250 - 2 * i, 110, 60, 40};
+    const auto objects = scene.show({{first, kRed}, {second, kBlue}});
+    for (const Object* object : toldOf(*objects)) {
+      EXPECT_NEAR(object->box.width, object->id == 1 ? 40 : 60, 6) << i;
+      EXPECT_NEAR(object->box.height, object->id == 1 ? 60 : 40, 6) << i;
+    }
+  }
+}
+
+TEST(Objects, TheFirstPartThatComesOutFromBehindAPillarIsEnough) {
+  Scene scene;
+  uint64_t id = 0;
+  for (int i = 0; i < 60; ++i) {
+    const Box box{4 * i, 100, 40, 60};
+    const Box before = intersect(box, {0, 0, 100, 240}), after = intersect(box, {200, 0, 120, 240});
+    const auto objects = scene.show({{before, kRed}, {after, kRed}});
+    if (i == 20) id = toldOf(*objects).at(0)->id;
+    if (after.width < 8) continue;
+    const auto told = toldOf(*objects);
+    const auto same = std::find_if(objects->objects.begin(), objects->objects.end(),
+                                   [&](const Object& object) { return object.id == id; });
+    ASSERT_NE(same, objects->objects.end()) << i;
+    EXPECT_TRUE(isListed(same->state)) << i;
+    EXPECT_GE(overlap(same->box, box), 0.7) << i;
+    EXPECT_EQ(objects->objects.size(), 1u) << i;
+  }
+}
+
 TEST(Objects, ABodyOfSeveralColoursIsOneObject) {
   Scene scene;
   std::shared_ptr<const Objects> objects;
