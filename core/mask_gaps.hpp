@@ -16,8 +16,8 @@
 namespace rg {
 
 struct GapContour {
-  int64_t steps = 0;  ///< Sum of the picture's differences across the border.
-  int64_t pixels = 0;
+  uint32_t edgePixels = 0;  ///< Where the picture has an edge across the border.
+  uint32_t pixels = 0;
   int frameSides = 0;  ///< Bits: left, top, right, bottom.
 };
 
@@ -29,8 +29,10 @@ struct GapScratch {
 };
 
 /// Sets unset parts of at most `mostPx` pixels that touch at most one side of the frame and whose
-/// border to the mask has a mean step of at most `mostStep` grey levels in `picture`.
-void fillUnedged(ImageView<const uint8_t> picture, int mostStep, uint32_t mostPx,
+/// border to the mask is no edge in `picture` for three quarters of its length: a step of at most
+/// `mostStep` grey levels. Returns whether there are any. (Where the mask is thin, the border's
+/// other side is read beyond it and tells nothing: hence not all of the border.)
+bool fillUnedged(ImageView<const uint8_t> picture, int mostStep, uint32_t mostPx,
                  const Executor& executor, GapScratch& scratch, BitMask& mask);
 
 }  // namespace rg

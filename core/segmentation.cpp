@@ -4,6 +4,7 @@
 #include "core/border_pixels.hpp"
 #include "core/colour_cells.hpp"
 #include "core/colour_links.hpp"
+#include "core/mask_gaps.hpp"
 #include "core/pixel.hpp"
 #include "core/pixel_runs.hpp"
 #include "core/pool.hpp"
@@ -70,6 +71,14 @@ Result<std::shared_ptr<const Labels>> skipped(Pool<Labels>& pool, Scope scope, S
   return std::shared_ptr<const Labels>(labels);
 }
 
+void keepInside(const Image<uint8_t>& interest, Image<uint8_t>& scope) {
+  for (int y = 0; y < scope.height(); ++y) {
+    const uint8_t* isInside = interest.row(y);
+    uint8_t* row = scope.row(y);
+    for (int x = 0; x < scope.width(); ++x) row[x] = row[x] & isInside[x];
+  }
+}
+
 class CpuSegmentation : public SegmentationStage {
  public:
   explicit CpuSegmentation(Context context) : context_(std::move(context)) {}
@@ -80,7 +89,9 @@ class CpuSegmentation : public SegmentationStage {
   void reset(Reset) override {}
 
  private:
-  ImageView<const uint8_t> chooseScope(const Foreground* foreground, Scope scope);
+  ImageView<const uint8_t> chooseScope(const Picture& picture, const Foreground* foreground,
+                                       Scope scope);
+  ImageView<const uint8_t> closeGaps(const Picture& picture, const Foreground& foreground);
   void coverAreas(const Foreground& foreground);
   ImageView<const uint8_t> decideByHue(const Picture& picture, const Foreground* foreground,
                                        const HueRules& rules, const HueBand& band,
@@ -90,6 +101,8 @@ class CpuSegmentation : public SegmentationStage {
 
   Context context_;
   Image<uint8_t> scope_, rawHues_, decided_;
+  BitMask whole_;  ///< The foreground without gaps.
+  GapScratch gaps_;
   ColourCells cells_;
   ColourLinks links_;
   PixelRuns cellRuns_, runs_;
@@ -122,7 +135,7 @@ Result<std::shared_ptr<const Labels>> CpuSegmentation::process(
   const HueBand band = findFrameBand(*picture);
   const ImageView<const uint8_t> mask =
       decideByHue(*picture, foreground.get(), params.hue, band,
-                  chooseScope(foreground.get(), params.scope), *labels);
+                  chooseScope(*picture, foreground.get(), params.scope), *labels);
   divide(*picture, mask, {params.similarity, minArea, maxRegions, band}, *labels);
   labels->picture = std::move(picture);
   labels->foreground = std::move(foreground);
@@ -156,10 +169,11 @@ void CpuSegmentation::divide(const Picture& picture, ImageView<const uint8_t> sc
 }
 
 /// The pixels that may get a region are kForegroundPixel; without data: all.
-ImageView<const uint8_t> CpuSegmentation::chooseScope(const Foreground* foreground, Scope scope) {
+ImageView<const uint8_t> CpuSegmentation::chooseScope(const Picture& picture,
+                                                      const Foreground* foreground, Scope scope) {
   switch (scope) {
     case Scope::Foreground:
-      return foreground->mask;
+      return closeGaps(picture, *foreground);
     case Scope::Areas:
       coverAreas(*foreground);
       return scope_;
@@ -168,6 +182,23 @@ ImageView<const uint8_t> CpuSegmentation::chooseScope(const Foreground* foregrou
   }
   if (foreground && foreground->interest) return *foreground->interest;
   return {};
+}
+
+/// Where the foreground ends but no colour does, the region goes on: a thing as dark as the wall
+/// behind it has holes in the foreground.
+ImageView<const uint8_t> CpuSegmentation::closeGaps(const Picture& picture,
+                                                    const Foreground& foreground) {
+  constexpr int kMostStep = 14;       // Grey levels across a border that is no edge.
+  constexpr uint32_t kMostShare = 5;  // A gap has at most this share of the frame.
+  packEqual(foreground.mask, kForegroundPixel, whole_);
+  const auto pixels = static_cast<uint32_t>(picture.size().area());
+  if (!fillUnedged(picture.green(), kMostStep, pixels / kMostShare, *context_.cpu, gaps_, whole_))
+    return foreground.mask;
+  scope_.resize(picture.size());
+  scope_.fill(kBackgroundPixel);
+  paint(whole_, kForegroundPixel, scope_);
+  if (foreground.interest) keepInside(*foreground.interest, scope_);
+  return scope_;
 }
 
 void CpuSegmentation::coverAreas(const Foreground& foreground) {
@@ -179,12 +210,7 @@ void CpuSegmentation::coverAreas(const Foreground& foreground) {
     for (int y = box.y; y < box.bottom(); ++y)
       std::fill_n(scope_.row(y) + box.x, box.width, kForegroundPixel);
   }
-  if (!foreground.interest) return;
-  for (int y = 0; y < size.height; ++y) {
-    const uint8_t* isInside = foreground.interest->row(y);
-    uint8_t* row = scope_.row(y);
-    for (int x = 0; x < size.width; ++x) row[x] = row[x] & isInside[x];
-  }
+  if (foreground.interest) keepInside(*foreground.interest, scope_);
 }
 
 ImageView<const uint8_t> CpuSegmentation::decideByHue(const Picture& picture,

@@ -23,7 +23,8 @@ namespace rg {
 /// Which pixels get a region.
 enum class Scope : uint8_t {
   Frame,       ///< All: the camera may move, the largest merged group is the background.
-  Foreground,  ///< Those that bgremove marked; the rest has label 0.
+  Foreground,  ///< Those that bgremove marked, and gaps in them at whose border no colour ends
+               ///< (core/mask_gaps.hpp); the rest has label 0.
   Areas,       ///< Those in the boxes of bgremove's areas and kAreaMargin around; the rest has 0.
 };
 

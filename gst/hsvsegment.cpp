@@ -30,8 +30,8 @@ GType scopeType() {
       {static_cast<int>(ScopeChoice::Auto),
        "The foreground where bgremove is upstream, else the whole frame", "auto"},
       {static_cast<int>(ScopeChoice::Frame), "The whole frame: for moving cameras", "frame"},
-      {static_cast<int>(ScopeChoice::Foreground), "Only what bgremove marked as foreground",
-       "foreground"},
+      {static_cast<int>(ScopeChoice::Foreground),
+       "What bgremove marked as foreground, and gaps in it where no colour ends", "foreground"},
       {static_cast<int>(ScopeChoice::Areas),
        "The boxes of bgremove's areas and 8 pixels around: only their pixels are converted and "
        "labelled",

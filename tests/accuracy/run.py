@@ -45,8 +45,12 @@ OBJECT_GATES = {  # The same of source=objects; "saved" = errors of bgremove's m
     'wallflower/WavingTrees': [('TE8_saved', AT_LEAST, 0)],
     'wallflower/ForegroundAperture': [('TE8_saved', AT_LEAST, 0)],
 }
+PAPER_GATES = {  # Of method=paper: what regions save of the errors of a mask.
+    'wallflower/WavingTrees': [('TE_left', AT_MOST, 0.75)],
+    'wallflower/ForegroundAperture': [('TE_left', AT_MOST, 0.75)],
+}
 SHOWN = {'masks': ('F', 'precision', 'recall', 'TE', 'TE8'),
-         'objects': ('F', 'precision', 'recall', 'TE', 'TE_saved', 'TE8', 'TE8_saved'),
+         'objects': ('F', 'precision', 'recall', 'TE', 'TE_saved', 'TE_left', 'TE8', 'TE8_saved'),
          'tracks': ('MOTA', 'IDF1', 'HOTA', 'MOTA_mot15', 'IDF1_mot15', 'FP', 'FN', 'IDSW'),
          'flow': ('EPE', 'EPE_reliable_half', 'EPE_pixels', 'regions', 'covered')}
 
@@ -108,6 +112,8 @@ class Runner:
         for key in ('TE', 'TE8'):
             if key in figures:
                 figures[f'{key}_saved'] = mask[key] - figures[key]
+        if mask.get('TE'):
+            figures['TE_left'] = round(figures['TE'] / mask['TE'], 3)
         return figures
 
     def tracks(self, name, folder):
@@ -133,15 +139,18 @@ class Runner:
             return getattr(self, kind)(name, folder)
 
 
-def gates_of(name, kind):
-    table = OBJECT_GATES if kind == 'objects' else GATES
+def gates_of(name, kind, method):
+    if method == 'paper':
+        table = PAPER_GATES if kind == 'objects' else {}
+    else:
+        table = OBJECT_GATES if kind == 'objects' else GATES
     return [gate for pattern, gates in table.items() if fnmatch.fnmatch(name, pattern)
             for gate in gates]
 
 
-def row(name, kind, figures):
+def row(name, kind, method, figures):
     shown = ', '.join(f'{key} {figures[key]}' for key in SHOWN[kind] if key in figures)
-    gates = gates_of(name, kind)
+    gates = gates_of(name, kind, method)
     missed = [f'{key} {"≥" if compare is AT_LEAST else "≤"} {limit}'
               for key, compare, limit in gates if not compare(figures[key], limit)]
     verdict = f'missed: {", ".join(missed)}' if missed else 'reached' if gates else ''
@@ -165,13 +174,13 @@ def main():
     options = parse()
     runner = Runner(options)
     chosen = [(name, kind) for name, kind in runner.sets()
-              if (not options.gate or gates_of(name, kind))
+              if (not options.gate or gates_of(name, kind, options.method))
               and (not options.sets or name in options.sets)]
     if not chosen:
         sys.exit('run.py: none of these sets is there')
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         futures = [pool.submit(runner.run, name, kind) for name, kind in chosen]
-        rows = [row(*task, future.result()) for task, future in zip(chosen, futures)]
+        rows = [row(*task, options.method, future.result()) for task, future in zip(chosen, futures)]
     print('\n'.join(['| set | figures | gate |', '|---|---|---|'] + [text for text, _ in rows]))
     sys.exit(1 if options.gate and any(missed for _, missed in rows) else 0)
 

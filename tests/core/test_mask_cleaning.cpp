@@ -127,6 +127,23 @@ TEST(MaskGaps, ARealEdgeKeepsTheGap) {
   EXPECT_EQ(gapsFilled(200, 200)[20], "....####........####....");
 }
 
+TEST(MaskGaps, AThinPieceOfTheBorderDoesNotKeepTheGap) {
+  // Its lower end is one column wide: behind that the wall is read.
+  BitMask mask({40, 24});
+  mask.clear();
+  Image<uint8_t> picture(mask.size());
+  for (int y = 0; y < 24; ++y)
+    for (int x = 0; x < 40; ++x) {
+      const bool isBody = x >= 6 && x < 27 && y >= 2;
+      if (isBody && (y < 8 || x < 14 || x >= (y < 18 ? 22 : 26))) mask.set(x, y);
+      picture.at(x, y) = isBody ? 40 : 200;
+    }
+  GapScratch scratch;
+  EXPECT_TRUE(fillUnedged(picture, 14, 300, Executor(1), scratch, mask));
+  EXPECT_EQ(textOf(mask)[20], std::string(6, '.') + std::string(21, '#') + std::string(13, '.'));
+  EXPECT_FALSE(fillUnedged(picture, 14, 300, Executor(1), scratch, mask));
+}
+
 TEST(MaskGaps, LargeGapsStay) {
   EXPECT_EQ(gapsFilled(42, 20)[20], "....####........####....");
 }

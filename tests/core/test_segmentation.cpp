@@ -221,6 +221,34 @@ TEST(Segmentation, ForegroundScopeLabelsTheForegroundOnly) {
       EXPECT_EQ(labels->ids.at(x, y) != kNoRegion, isInside(x, y)) << x << ' ' << y;
 }
 
+/// A frame of 80x60 with a thing whose middle the foreground misses; what is there has a grey level
+/// of its own. Returns the pixels of the middle that got a region.
+int64_t labelledInTheMiddle(uint8_t middle, const Box& gap) {
+  const Box thing{20, 12, 40, 48};
+  const auto picture = paint({80, 60}, [&](int x, int y) {
+    if (!thing.contains({x, y})) return Rgb{190, 190, 190};
+    return gap.contains({x, y}) ? Rgb{middle, middle, middle} : kGrey;
+  });
+  SegmentationParams params = withAreas(0);
+  params.scope = Scope::Foreground;
+  const auto labels = segment(picture, params, foregroundOf(picture, [&](int x, int y) {
+                                return thing.contains({x, y}) && !gap.contains({x, y});
+                              }));
+  expectSound(*labels);
+  int64_t labelled = 0;
+  for (int y = gap.y; y < gap.bottom(); ++y)
+    for (int x = gap.x; x < gap.right(); ++x) labelled += labels->ids.at(x, y) != kNoRegion;
+  return labelled;
+}
+
+TEST(Segmentation, AForegroundsGapIsClosedWhereNoColourEnds) {
+  const Box enclosed{32, 24, 16, 20}, open{32, 24, 16, 36};  // The second ends with the frame.
+  for (const Box& gap : {enclosed, open}) {
+    EXPECT_EQ(labelledInTheMiddle(kGrey.red, gap), gap.area());
+    EXPECT_EQ(labelledInTheMiddle(190, gap), 0) << "the wall is seen through it";
+  }
+}
+
 TEST(Segmentation, IsolatedForegroundNeverExceedsTheLargestNumber) {
   const auto picture = paint({60, 40}, [](int, int) { return kGrey; });
   const auto dots = foregroundOf(picture, [](int x, int y) { return x % 3 == 0 && y % 3 == 0; });
