@@ -127,7 +127,7 @@ void SceneScale::refit() {
 bool SceneScale::isAsExpected(const Sample& sample) const {
   const int64_t height = valueAt(height_, sample.foot), width = valueAt(width_, sample.foot);
   return 4 * std::abs(sample.height - height) <= height &&
-         (sample.width == 0 || (5 * sample.width <= 8 * width && 5 * width <= 8 * sample.width));
+         (sample.width == 0 || (5 * sample.width <= 9 * width && 5 * width <= 9 * sample.width));
 }
 
 /// By samples and by things: one thing that walks up and down is always like itself.
@@ -155,8 +155,8 @@ bool SceneScale::areMostAlike() const {
   const auto end = things.begin() + static_cast<std::ptrdiff_t>(count);
   const auto alikeThings =
       std::count_if(things.begin(), end, [](const Thing& t) { return 2 * t.alike >= t.samples; });
-  return count >= kLeastThings && 5 * alike >= 4 * samples &&
-         5 * static_cast<size_t>(alikeThings) >= 4 * count;
+  return count >= kLeastThings && 4 * alike >= 3 * samples &&
+         4 * static_cast<size_t>(alikeThings) >= 3 * count;
 }
 
 }  // namespace rg
