@@ -1,160 +1,151 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/matched_blocks.hpp"
 
+#include "core/simd/run_rows.hpp"
+
 #include <algorithm>
-#include <array>
-#include <cstring>
 #include <numeric>
 
 namespace rg {
 namespace {
 
-constexpr uint8_t kSame = 0xFF;
-/// Rows of left_ have so many columns before and after those of the frame, all kSame.
-constexpr int kMargin = 8;
-
-void compare(const uint16_t* a, const uint16_t* b, int count, uint8_t* same) {
-  for (int i = 0; i < count; ++i) same[i] = a[i] == b[i] ? kSame : uint8_t{0};
-}
-
-void intersect(const uint8_t* with, int count, uint8_t* same) {
-  for (int i = 0; i < count; ++i) same[i] &= with[i];
-}
-
-/// The parts of one tile, found by label.
-class Tile {
- public:
-  Tile(std::vector<MatchedPart>& parts, int column, int strip)
-      : parts_(parts), first_(parts.size()), at_(first_), column_(column), strip_(strip) {}
-
-  void add(uint16_t label, int bit) {
-    if (at_ == parts_.size() || parts_[at_].label != label) {
-      at_ = first_;
-      while (at_ < parts_.size() && parts_[at_].label != label) ++at_;
-      if (at_ == parts_.size())
-        parts_.push_back({0, static_cast<uint16_t>(column_), static_cast<uint16_t>(strip_), label});
-    }
-    parts_[at_].blocks |= uint64_t{1} << bit;
-  }
-
- private:
-  std::vector<MatchedPart>& parts_;
-  size_t first_, at_;
-  int column_, strip_;
-};
-
-/// Calls visit(tile, x, y, bit) for each whole block of a strip, tile by tile.
-template <class Visit>
-void forTiles(Size size, int strip, std::vector<MatchedPart>& parts, Visit&& visit) {
-  const int top = strip * kPartHeight;
-  const int rows = std::min(kPartHeight, size.height - top);
-  const int blocks = size.width / kBlockWidth;
-  for (int column = 0; 2 * column < blocks; ++column) {
-    Tile tile(parts, column, strip);
-    const int halves = std::min(2, blocks - 2 * column);
-    for (int row = 0; row < rows; ++row)
-      for (int half = 0; half < halves; ++half)
-        visit(tile, column * kPartWidth + half * kBlockWidth, top + row, 2 * row + half);
-  }
-}
+constexpr size_t kMostChunks = 64;
+constexpr uint64_t kBlockBits = 0x1111111111111111;
 
 }  // namespace
 
-void MatchedBlocks::find(ImageView<const uint16_t> labels, std::span<const Region> regions,
-                         const Executor& executor) {
-  const int strips = (labels.height() + kPartHeight - 1) / kPartHeight;
-  strips_.resize(static_cast<size_t>(strips));
-  compareRows(labels, executor);
-  executor.forEach(strips, [&](int strip) {
-    const int last = std::min((strip + 1) * kPartHeight, labels.height());
-    for (int y = strip * kPartHeight; y < last; ++y) findInner(y);
-    collectInner(labels, strip);
-  });
-  if (findThin(regions)) executor.forEach(strips, [&](int strip) { collectThin(labels, strip); });
-  sortParts(regions.size());
+void MatchedBlocks::find(const Graph& graph, const Executor& executor) {
+  size_ = graph.size;
+  findSteady(graph.labels->ids, executor);
+  cutChunks(graph.runs);
+  starts_.assign(graph.regions.size() + 1, 0);
+  executor.forEach(static_cast<int>(chunks_.size()),
+                   [&](int i) { collect(graph, chunks_[static_cast<size_t>(i)]); });
+  joinChunks(graph.regions.size(), executor);
 }
 
-void MatchedBlocks::compareRows(ImageView<const uint16_t> labels, const Executor& executor) {
-  const int width = labels.width(), height = labels.height();
-  left_.resize({width + 2 * kMargin, height});
-  up_.resize({width, height + 1});
-  inner_.resize(labels.size);
+// A column has one label from n rows above to n below when all pairs of neighbours between agree.
+void MatchedBlocks::findSteady(ImageView<const uint16_t> labels, const Executor& executor) {
+  const int width = labels.width(), height = labels.height(), words = (width + 63) / 64;
+  same_.resize({words, height});
+  steady_.resize({words, height});
+  executor.forRows(height, [&](int first, int last) {
+    for (int y = std::max(first, 1); y < last; ++y)
+      simd::compareLabels(labels.row(y - 1), labels.row(y), width, same_.row(y));
+  });
   executor.forRows(height, [&](int first, int last) {
     for (int y = first; y < last; ++y) {
-      uint8_t* left = left_.row(y);
-      std::memset(left, kSame, kMargin + 1);
-      std::memset(left + kMargin + width, kSame, kMargin);
-      const uint16_t* row = labels.row(y);
-      compare(row, row + 1, width - 1, left + kMargin + 1);
-      if (y > 0) compare(labels.row(y - 1), row, width, up_.row(y));
+      uint64_t* steady = steady_.row(y);
+      std::fill_n(steady, words, ~uint64_t{0});
+      for (int row = std::max(y - kBorderReach + 1, 1);
+           row <= std::min(y + kBorderReach, height - 1); ++row)
+        for (int i = 0; i < words; ++i) steady[i] &= same_.row(row)[i];
+      for (int i = 0; i < words; ++i) {
+        const uint64_t pairs = steady[i] & steady[i] >> 1;
+        steady[i] = pairs & pairs >> 2 & kBlockBits;
+      }
     }
   });
-  std::memset(up_.row(0), kSame, static_cast<size_t>(width));
-  std::memset(up_.row(height), kSame, static_cast<size_t>(width));
 }
 
-// A pixel has the label of those n to its left when all pairs of neighbours between them agree.
-void MatchedBlocks::findInner(int y) {
-  const int width = inner_.width();
-  uint8_t* inner = inner_.row(y);
-  const uint8_t* left = left_.row(y) + kMargin;
-  std::memcpy(inner, left, static_cast<size_t>(width));
-  for (int step = 1 - kBorderReach; step <= kBorderReach; ++step) {
-    intersect(left + step, width, inner);
-    const int row = y + step;
-    if (row >= 0 && row <= inner_.height()) intersect(up_.row(row), width, inner);
+/// About equal numbers of runs, whole regions.
+void MatchedBlocks::cutChunks(const RegionRuns& runs) {
+  const size_t regions = runs.starts.size() - 1, least = runs.list.size() / kMostChunks + 1;
+  chunks_.resize(kMostChunks);
+  size_t first = 0;
+  for (Chunk& chunk : chunks_) {
+    const size_t end = runs.starts[first] + least;
+    const auto from = runs.starts.begin() + static_cast<std::ptrdiff_t>(first);
+    const auto last = static_cast<size_t>(std::lower_bound(from, runs.starts.end() - 1, end) -
+                                          runs.starts.begin());
+    chunk.first = static_cast<uint32_t>(first);
+    chunk.last = static_cast<uint32_t>(last);
+    first = last;
   }
+  chunks_.back().last = static_cast<uint32_t>(regions);
 }
 
-void MatchedBlocks::collectInner(ImageView<const uint16_t> labels, int strip) {
-  std::vector<MatchedPart>& parts = strips_[static_cast<size_t>(strip)];
-  parts.clear();
-  forTiles(labels.size, strip, parts, [&](Tile& tile, int x, int y, int bit) {
+void MatchedBlocks::collect(const Graph& graph, Chunk& chunk) {
+  chunk.parts.clear();
+  chunk.places.resize(static_cast<size_t>(size_.width / kPartWidth) + 1);
+  for (uint32_t region = chunk.first; region < chunk.last; ++region) {
+    const size_t begin = chunk.stripFirst = chunk.parts.size();
+    const auto label = static_cast<uint16_t>(region + 1);
+    const auto runs = graph.runs.of(region);
+    for (const RegionRun& run : runs) addInner(run, label, chunk);
+    closeStrip(chunk);
     uint32_t inner = 0;
-    std::memcpy(&inner, inner_.row(y) + x, sizeof inner);
-    if (inner != ~uint32_t{0}) return;
-    if (const uint16_t label = labels.row(y)[x]; label != kNoRegion) tile.add(label, bit);
-  });
-}
-
-/// True if there is any.
-bool MatchedBlocks::findThin(std::span<const Region> regions) {
-  counts_.assign(regions.size() + 1, 0);
-  for (const auto& parts : strips_)
-    for (const MatchedPart& part : parts) counts_[part.label] += part.pixels();
-  isThin_.assign(regions.size() + 1, 0);
-  bool hasThin = false;
-  for (size_t i = 0; i < regions.size(); ++i) {
-    const uint32_t inner = counts_[i + 1];
-    const bool isThin = inner < kLeastInnerPx || inner < regions[i].areaPx / kInnerShare;
-    isThin_[i + 1] = isThin ? 1 : 0;
-    hasThin = hasThin || isThin;
-  }
-  return hasThin;
-}
-
-void MatchedBlocks::collectThin(ImageView<const uint16_t> labels, int strip) {
-  std::vector<MatchedPart>& parts = strips_[static_cast<size_t>(strip)];
-  std::erase_if(parts, [&](const MatchedPart& part) { return isThin_[part.label] != 0; });
-  forTiles(labels.size, strip, parts, [&](Tile& tile, int x, int y, int bit) {
-    const uint16_t* ids = labels.row(y) + x;
-    if ((isThin_[ids[0]] | isThin_[ids[1]] | isThin_[ids[2]] | isThin_[ids[3]]) == 0) return;
-    for (int i = 0; i < kBlockWidth - 1; ++i) {
-      const auto count = std::count(ids + i, ids + kBlockWidth, ids[i]);
-      const bool isFirst = std::find(ids, ids + i, ids[i]) == ids + i;
-      if (isFirst && 2 * count >= kBlockWidth && isThin_[ids[i]] != 0) tile.add(ids[i], bit);
+    for (size_t i = begin; i < chunk.parts.size(); ++i) inner += chunk.parts[i].pixels();
+    if (inner < kLeastInnerPx || inner < graph.regions[region].areaPx / kInnerShare) {
+      chunk.parts.resize(begin);
+      chunk.stripFirst = begin;
+      std::pair<int, int> open{-1, 0};
+      for (const RegionRun& run : runs) addHalves(run, label, open, chunk);
+      closeStrip(chunk);
     }
-  });
+    starts_[region] = static_cast<uint32_t>(chunk.parts.size() - begin);
+  }
 }
 
-void MatchedBlocks::sortParts(size_t labelCount) {
-  starts_.assign(labelCount + 2, 0);
-  for (const auto& parts : strips_)
-    for (const MatchedPart& part : parts) ++starts_[part.label + 1u];
-  std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
-  parts_.resize(starts_.back());
-  for (const auto& parts : strips_)
-    for (const MatchedPart& part : parts) parts_[starts_[part.label]++] = part;
+void MatchedBlocks::addInner(const RegionRun& run, uint16_t label, Chunk& chunk) const {
+  const int begin = run.begin == 0 ? 0 : run.begin + kBorderReach;
+  const int end = run.end == size_.width ? run.end : run.end - kBorderReach;
+  const int first = (begin + kBlockWidth - 1) / kBlockWidth * kBlockWidth;
+  const int last = end / kBlockWidth * kBlockWidth;
+  const uint64_t* steady = steady_.row(run.y);
+  for (int x = first / kPartWidth * kPartWidth; x < last; x += kPartWidth) {
+    const uint64_t bits = steady[x / 64] >> (x % 64);
+    const uint64_t left = x >= first ? bits & 1 : 0;
+    const uint64_t right = x + kBlockWidth < last ? bits >> kBlockWidth & 1 : 0;
+    if ((left | right) != 0) add(run, x / kPartWidth, left | right << 1, label, chunk);
+  }
+}
+
+/// open: the block that the runs before ended in, as its number in a picture of whole blocks, and
+/// how many of its pixels they hold.
+void MatchedBlocks::addHalves(const RegionRun& run, uint16_t label, std::pair<int, int>& open,
+                              Chunk& chunk) const {
+  const int blocks = size_.width / kBlockWidth;
+  for (int block = run.begin / kBlockWidth; block * kBlockWidth < run.end && block < blocks;
+       ++block) {
+    const int x = block * kBlockWidth;
+    const int pixels = std::min(run.end - x, kBlockWidth) - std::max(run.begin - x, 0);
+    const int number = run.y * blocks + block;
+    open = {number, open.first == number ? open.second + pixels : pixels};
+    if (2 * open.second >= kBlockWidth) add(run, block / 2, uint64_t{1} << block % 2, label, chunk);
+  }
+}
+
+void MatchedBlocks::add(const RegionRun& run, int column, uint64_t halves, uint16_t label,
+                        Chunk& chunk) {
+  const int strip = run.y / kPartHeight;
+  if (chunk.parts.size() > chunk.stripFirst && chunk.parts[chunk.stripFirst].strip != strip)
+    closeStrip(chunk);
+  uint32_t& place = chunk.places[static_cast<size_t>(column)];
+  if (place < chunk.stripFirst || place >= chunk.parts.size() ||
+      chunk.parts[place].column != column) {
+    place = static_cast<uint32_t>(chunk.parts.size());
+    chunk.parts.push_back({0, static_cast<uint16_t>(column), static_cast<uint16_t>(strip), label});
+  }
+  chunk.parts[place].blocks |= halves << (2 * (run.y % kPartHeight));
+}
+
+void MatchedBlocks::closeStrip(Chunk& chunk) {
+  std::sort(chunk.parts.begin() + static_cast<std::ptrdiff_t>(chunk.stripFirst), chunk.parts.end(),
+            [](const MatchedPart& a, const MatchedPart& b) { return a.column < b.column; });
+  chunk.stripFirst = chunk.parts.size();
+}
+
+/// `starts_` holds the regions' numbers of parts before.
+void MatchedBlocks::joinChunks(size_t labelCount, const Executor& executor) {
+  uint32_t sum = 0;
+  for (uint32_t& start : starts_) start = std::exchange(sum, sum + start);
+  parts_.resize(starts_[labelCount]);
+  executor.forEach(static_cast<int>(chunks_.size()), [&](int i) {
+    const Chunk& chunk = chunks_[static_cast<size_t>(i)];
+    std::copy(chunk.parts.begin(), chunk.parts.end(),
+              parts_.begin() + static_cast<std::ptrdiff_t>(starts_[chunk.first]));
+  });
 }
 
 }  // namespace rg

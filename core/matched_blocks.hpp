@@ -16,6 +16,7 @@
 #include <bit>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace rg {
@@ -56,8 +57,7 @@ void forBlocks(const MatchedPart& part, Visit&& visit) {
 
 class MatchedBlocks {
  public:
-  void find(ImageView<const uint16_t> labels, std::span<const Region> regions,
-            const Executor& executor);
+  void find(const Graph& graph, const Executor& executor);
 
   [[nodiscard]] std::span<const MatchedPart> parts() const { return parts_; }
   [[nodiscard]] std::span<const MatchedPart> partsOf(uint32_t label) const {
@@ -65,18 +65,30 @@ class MatchedBlocks {
   }
 
  private:
-  void compareRows(ImageView<const uint16_t> labels, const Executor& executor);
-  void findInner(int y);
-  void collectInner(ImageView<const uint16_t> labels, int strip);
-  [[nodiscard]] bool findThin(std::span<const Region> regions);
-  void collectThin(ImageView<const uint16_t> labels, int strip);
-  void sortParts(size_t labelCount);
+  /// A task's regions, first … last − 1.
+  struct Chunk {
+    uint32_t first = 0, last = 0;
+    std::vector<MatchedPart> parts;
+    std::vector<uint32_t> places;  ///< Of the strip's part in each column of tiles.
+    size_t stripFirst = 0;         ///< Where the parts of the region and strip begin.
+  };
 
-  Image<uint8_t> left_, up_;  ///< 0xFF: of one label with the pixel to the left, or above.
-  Image<uint8_t> inner_;      ///< 0xFF in all four pixels of an inner block.
-  std::vector<std::vector<MatchedPart>> strips_;
-  std::vector<uint8_t> isThin_;  ///< By label: takes what is half its own.
-  std::vector<uint32_t> counts_, starts_;
+  void findSteady(ImageView<const uint16_t> labels, const Executor& executor);
+  void cutChunks(const RegionRuns& runs);
+  void collect(const Graph& graph, Chunk& chunk);
+  void addInner(const RegionRun& run, uint16_t label, Chunk& chunk) const;
+  void addHalves(const RegionRun& run, uint16_t label, std::pair<int, int>& open,
+                 Chunk& chunk) const;
+  static void add(const RegionRun& run, int column, uint64_t halves, uint16_t label, Chunk& chunk);
+  static void closeStrip(Chunk& chunk);
+  void joinChunks(size_t labelCount, const Executor& executor);
+
+  Size size_;
+  Image<uint64_t> same_;    ///< Bit x: of one label with the pixel above.
+  Image<uint64_t> steady_;  ///< Bit 4 i: the columns of block i have one label kBorderReach rows
+                            ///< up and down.
+  std::vector<Chunk> chunks_;
+  std::vector<uint32_t> starts_;  ///< By label: where its parts begin.
   std::vector<MatchedPart> parts_;
 };
 

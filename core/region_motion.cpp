@@ -118,7 +118,7 @@ void CpuMotion::match(const Graph& graph, const MotionParams& params, Motion& mo
   reach_ = maxShift_ + 1;
   shifts_ = static_cast<size_t>(shiftCount(reach_));
   const Labels& labels = *graph.labels;
-  blocks_.find(labels.ids, graph.regions, *context_.cpu);
+  blocks_.find(graph, *context_.cpu);
   if (blocks_.parts().empty()) return;
   padded_.build(previous_->luma(), reach_, *context_.cpu);
   scratch_.resize(static_cast<size_t>(context_.cpu->threads()));

@@ -15,6 +15,14 @@ HWY_BEFORE_NAMESPACE();
 namespace rg::simd::HWY_NAMESPACE {
 namespace {
 
+void compareRest(const uint16_t* a, const uint16_t* b, int first, int count, uint64_t* words) {
+  for (int i = first; i < count; ++i) {
+    uint64_t& word = words[i / 64];
+    if (i % 64 == 0) word = 0;
+    word |= uint64_t{a[i] == b[i]} << (i % 64);
+  }
+}
+
 uint32_t sumPlainly(const uint8_t* from, int count) {
   uint32_t sum = 0;
   for (int i = 0; i < count; ++i) sum += from[i];
@@ -34,6 +42,10 @@ int findRuns(const uint16_t* labels, int count, uint16_t* begins) {
 
 uint32_t sumOf(const uint8_t* from, int count, int) {
   return sumPlainly(from, count);
+}
+
+void compareLabels(const uint16_t* a, const uint16_t* b, int count, uint64_t* words) {
+  compareRest(a, b, 0, count, words);
 }
 
 #else
@@ -57,6 +69,19 @@ int findRuns(const uint16_t* labels, int count, uint16_t* begins) {
     if (labels[i] != labels[i - 1]) begins[runs++] = static_cast<uint16_t>(i);
   begins[runs] = static_cast<uint16_t>(count);
   return runs;
+}
+
+void compareLabels(const uint16_t* a, const uint16_t* b, int count, uint64_t* words) {
+  constexpr hn::CappedTag<uint16_t, 32> d;
+  const auto lanes = static_cast<int>(hn::Lanes(d));
+  int i = 0;
+  for (; i + 64 <= count; i += 64) {
+    uint8_t bytes[16] = {};  // More than the last StoreMaskBits may write.
+    for (int k = 0; k < 64; k += lanes)
+      hn::StoreMaskBits(d, hn::Eq(hn::LoadU(d, a + i + k), hn::LoadU(d, b + i + k)), bytes + k / 8);
+    std::memcpy(words + i / 64, bytes, sizeof *words);
+  }
+  compareRest(a, b, i, count, words);
 }
 
 /// `readable`: so many bytes may be read, `count` of them are summed.
@@ -101,12 +126,17 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace rg::simd {
 namespace {
+HWY_EXPORT(compareLabels);
 HWY_EXPORT(findRuns);
 HWY_EXPORT(sumRuns);
 }  // namespace
 
 int findRuns(const uint16_t* labels, int count, uint16_t* begins) {
   return HWY_DYNAMIC_DISPATCH(findRuns)(labels, count, begins);
+}
+
+void compareLabels(const uint16_t* a, const uint16_t* b, int count, uint64_t* words) {
+  HWY_DYNAMIC_DISPATCH(compareLabels)(a, b, count, words);
 }
 
 void sumRuns(const ChannelRows& from, const uint16_t* begins, int runs, ChannelSums* to) {

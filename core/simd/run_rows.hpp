@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// The loops over one row that core/region_graph.cpp is made of, compiled for every instruction set.
+// The loops over one row that core/region_graph.cpp and core/matched_blocks.cpp are
+// made of, compiled for every instruction set.
 // The same bits on every target.
 #pragma once
 
@@ -10,6 +11,9 @@ namespace rg::simd {
 /// Where runs of equal labels begin in a row of `count` > 0 of them: the first is 0. Returns how
 /// many there are; begins has place for count + 1 and gets `count` behind the last.
 int findRuns(const uint16_t* labels, int count, uint16_t* begins);
+
+/// Bit i of the words = a[i] == b[i]; the last word's other bits are 0.
+void compareLabels(const uint16_t* a, const uint16_t* b, int count, uint64_t* words);
 
 /// Sums of three rows of bytes over the same run.
 struct ChannelSums {

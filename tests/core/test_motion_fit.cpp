@@ -79,9 +79,8 @@ TEST(MotionFit, FindsTheVectorAtTheCentroidOfATurningRegion) {
   previous.build(before->luma(), 8, Executor(1));
   const auto labels =
       label(now, 1, [](int x, int y) { return x >= 16 && x < 80 && y >= 16 && y < 80 ? 1 : 0; });
-  const Region region{64 * 64, {16, 16, 64, 64}, 48 * 256, 48 * 256, {}};
   MatchedBlocks blocks;
-  blocks.find(labels->ids, std::span(&region, 1), Executor(1));
+  blocks.find(**makeGraphStage(contextWith(1))->process(labels, {}), Executor(1));
   const FitRegion fitted{blocks.partsOf(1), {48, 48}, 40 * kFine, 64 * 64};
   MotionFit start;
   start.at = {2 * kFine, -kFine};
@@ -102,9 +101,8 @@ TEST(MotionFit, APriorDecidesAlongAnEdge) {
   previous.build(edge(0)->luma(), 8, Executor(1));
   const auto labels =
       label(now, 1, [](int x, int y) { return x > 11 && x < 52 && y > 11 && y < 52 ? 1 : 0; });
-  const Region region{40 * 40, {12, 12, 40, 40}, 32 * 256, 32 * 256, {}};
   MatchedBlocks blocks;
-  blocks.find(labels->ids, std::span(&region, 1), Executor(1));
+  blocks.find(**makeGraphStage(contextWith(1))->process(labels, {}), Executor(1));
   const FitRegion fitted{blocks.partsOf(1), {32, 32}, 40 * kFine, 40 * 40};
   MotionFit start;
   start.at = {2 * kFine, 0};

@@ -60,6 +60,24 @@ TEST(SimdRuns, AreWhereLabelsChange) {
     }
 }
 
+TEST(SimdRuns, LabelsAreComparedBitByBit) {
+  for (int count = 1; count <= kMostColumns; ++count) {
+    const auto a = labelsOf(count, 5), b = labelsOf(count, 7);
+    std::vector<uint64_t> expected(static_cast<size_t>((count + 63) / 64) + 1, 0);
+    expected.back() = 0xA5A5;
+    for (size_t i = 0; i < a.size(); ++i)
+      expected[i / 64] |= uint64_t{a[i] % 2 == b[i] % 2} << (i % 64);
+    auto odd = a, even = b;
+    for (uint16_t& label : odd) label %= 2;
+    for (uint16_t& label : even) label %= 2;
+    test::forEachTarget([&] {
+      std::vector<uint64_t> words(expected.size(), 0xA5A5);
+      simd::compareLabels(odd.data(), even.data(), count, words.data());
+      EXPECT_EQ(words, expected) << count << " columns";
+    });
+  }
+}
+
 TEST(SimdRuns, AreSummedChannelByChannel) {
   for (const int longest : {1, 9, 40, 1000})
     for (int count = 1; count <= kMostColumns; count += count < 130 ? 1 : 63) {
