@@ -4,13 +4,24 @@
 #include "core/simd/run_rows.hpp"
 
 #include <algorithm>
-#include <numeric>
+#include <functional>
 
 namespace rg {
 namespace {
 
 constexpr size_t kMostChunks = 64;
 constexpr uint64_t kBlockBits = 0x1111111111111111;
+
+uint32_t countPixels(std::span<const MatchedPart> parts) {
+  uint32_t pixels = 0;
+  for (const MatchedPart& part : parts) pixels += part.pixels();
+  return pixels;
+}
+
+/// Unequal for all regions.
+uint64_t rankOf(size_t region, uint32_t pixels) {
+  return uint64_t{pixels} << 32 | (UINT32_MAX - static_cast<uint32_t>(region));
+}
 
 }  // namespace
 
@@ -19,8 +30,10 @@ void MatchedBlocks::find(const Graph& graph, const Executor& executor) {
   findSteady(graph.labels->ids, executor);
   cutChunks(graph.runs);
   starts_.assign(graph.regions.size() + 1, 0);
+  pixels_.resize(graph.regions.size());
   executor.forEach(static_cast<int>(chunks_.size()),
                    [&](int i) { collect(graph, chunks_[static_cast<size_t>(i)]); });
+  dropSmallest();
   joinChunks(graph.regions.size(), executor);
 }
 
@@ -74,8 +87,7 @@ void MatchedBlocks::collect(const Graph& graph, Chunk& chunk) {
     const auto runs = graph.runs.of(region);
     for (const RegionRun& run : runs) addInner(run, label, chunk);
     closeStrip(chunk);
-    uint32_t inner = 0;
-    for (size_t i = begin; i < chunk.parts.size(); ++i) inner += chunk.parts[i].pixels();
+    const uint32_t inner = countPixels(std::span(chunk.parts).subspan(begin));
     if (inner < kLeastInnerPx || inner < graph.regions[region].areaPx / kInnerShare) {
       chunk.parts.resize(begin);
       chunk.stripFirst = begin;
@@ -83,6 +95,7 @@ void MatchedBlocks::collect(const Graph& graph, Chunk& chunk) {
       for (const RegionRun& run : runs) addHalves(run, label, open, chunk);
       closeStrip(chunk);
     }
+    pixels_[region] = countPixels(std::span(chunk.parts).subspan(begin));
     starts_[region] = static_cast<uint32_t>(chunk.parts.size() - begin);
   }
 }
@@ -136,8 +149,34 @@ void MatchedBlocks::closeStrip(Chunk& chunk) {
   chunk.stripFirst = chunk.parts.size();
 }
 
-/// `starts_` holds the regions' numbers of parts before.
+void MatchedBlocks::dropSmallest() {
+  const size_t most = mostMatched(size_);
+  ranks_.clear();
+  for (size_t i = 0; i < pixels_.size(); ++i)
+    if (pixels_[i] > 0) ranks_.push_back(rankOf(i, pixels_[i]));
+  if (ranks_.size() <= most) return;
+  const auto last = ranks_.begin() + static_cast<std::ptrdiff_t>(most - 1);
+  std::nth_element(ranks_.begin(), last, ranks_.end(), std::greater<>());
+  const uint64_t least = *last;
+  for (size_t i = 0; i < pixels_.size(); ++i)
+    if (rankOf(i, pixels_[i]) < least) pixels_[i] = 0;
+}
+
+/// `starts_` holds the regions' numbers of parts before; those without pixels don't count.
 void MatchedBlocks::joinChunks(size_t labelCount, const Executor& executor) {
+  for (Chunk& chunk : chunks_) {
+    size_t from = 0, kept = 0;
+    for (uint32_t region = chunk.first; region < chunk.last; ++region) {
+      const size_t count = starts_[region];
+      if (pixels_[region] == 0) starts_[region] = 0;
+      const auto first = chunk.parts.begin() + static_cast<std::ptrdiff_t>(from);
+      if (kept != from && starts_[region] > 0)
+        std::copy_n(first, count, chunk.parts.begin() + static_cast<std::ptrdiff_t>(kept));
+      from += count;
+      kept += starts_[region];
+    }
+    chunk.parts.resize(kept);
+  }
   uint32_t sum = 0;
   for (uint32_t& start : starts_) start = std::exchange(sum, sum + start);
   parts_.resize(starts_[labelCount]);

@@ -5,6 +5,8 @@
 // uncovered lies in it: matched are pixels away from the border, in whole blocks of 4x1 pixels, as
 // wide as a SAD instruction. A region that has few such blocks takes every block of which half is
 // its own; one that is too thin for that, none.
+// Each region that is matched costs a search however few its pixels are: of more regions than
+// mostMatched() those with the most pixels are, of equal ones those with the smaller labels.
 // Determinism: each block depends on its neighbourhood and on integer counts. Parts are sorted by
 // label, then by row of parts, then by column.
 #pragma once
@@ -13,6 +15,7 @@
 #include "core/image.hpp"
 #include "core/region_graph.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <span>
@@ -28,6 +31,11 @@ inline constexpr int kBorderReach = 3;
 /// Inner blocks are matched where their pixels are at least one in so many, and kLeastInnerPx.
 inline constexpr uint32_t kInnerShare = 4;
 inline constexpr uint32_t kLeastInnerPx = 16;
+
+/// A bound on the time: as many as there would be of 256 pixels each, and in small frames 1024.
+[[nodiscard]] constexpr size_t mostMatched(Size frame) {
+  return static_cast<size_t>(std::max<int64_t>(1024, frame.area() / 256));
+}
 
 inline constexpr int kPartWidth = 2 * kBlockWidth;
 inline constexpr int kPartHeight = 32;
@@ -81,6 +89,7 @@ class MatchedBlocks {
                  Chunk& chunk) const;
   static void add(const RegionRun& run, int column, uint64_t halves, uint16_t label, Chunk& chunk);
   static void closeStrip(Chunk& chunk);
+  void dropSmallest();
   void joinChunks(size_t labelCount, const Executor& executor);
 
   Size size_;
@@ -89,6 +98,8 @@ class MatchedBlocks {
                             ///< up and down.
   std::vector<Chunk> chunks_;
   std::vector<uint32_t> starts_;  ///< By label: where its parts begin.
+  std::vector<uint32_t> pixels_;  ///< Of each region, matched.
+  std::vector<uint64_t> ranks_;
   std::vector<MatchedPart> parts_;
 };
 

@@ -11,7 +11,11 @@
 namespace rg {
 namespace {
 
-constexpr int kSweeps = 8;
+constexpr size_t kMostSweeps = 8;
+/// Bounds on the time: of more than 8192 regions fewer sweeps are made, among fewer neighbours.
+constexpr size_t kMostVisits = 65536;
+constexpr size_t kManyRegions = kMostVisits / kMostSweeps;
+constexpr size_t kMostNeighbours = 16, kMostNeighboursOfMany = 6;
 constexpr int64_t kOne = 256;
 /// Neighbours are expected to differ by half a pixel: a weight of 4 px⁻².
 constexpr int64_t kLikeness = 4 * kOne;
@@ -69,7 +73,9 @@ std::span<const MotionPrior> MotionConsensus::run(const Graph& graph,
     ownTrust_[i] = trustOf(leastInformation(own[i].information), kLikeness);
     before_[i] = {own[i].at, ownTrust_[i]};
   }
-  for (int turn = 0; turn < kSweeps; ++turn) {
+  const size_t sweeps =
+      std::clamp<size_t>(kMostVisits / std::max<size_t>(own.size(), 1), 1, kMostSweeps);
+  for (size_t turn = 0; turn < sweeps; ++turn) {
     executor.forRows(static_cast<int>(own.size()), [&](int first, int last) {
       for (auto i = static_cast<size_t>(first); i < static_cast<size_t>(last); ++i)
         sweep(i, own[i]);
@@ -104,7 +110,8 @@ void MotionConsensus::findNeighbours(const Graph& graph) {
 // A bound on the time: a region may have thousands of neighbours. Weights become shares of kOne².
 void MotionConsensus::keepStrongest(size_t region) {
   Neighbour* first = neighbours_.data() + starts_[region];
-  const size_t kept = std::min<size_t>(counts_[region], kMostNeighbours);
+  const size_t kept = std::min<size_t>(
+      counts_[region], counts_.size() > kManyRegions ? kMostNeighboursOfMany : kMostNeighbours);
   std::partial_sort(first, first + kept, first + counts_[region],
                     [](const Neighbour& a, const Neighbour& b) {
                       return a.weight != b.weight ? a.weight > b.weight : a.region < b.region;

@@ -33,8 +33,6 @@ class MotionConsensus {
                                    const Executor& executor);
 
  private:
-  static constexpr size_t kMostNeighbours = 16;
-
   struct Neighbour {
     uint32_t region = 0;
     int32_t weight = 0;

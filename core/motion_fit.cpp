@@ -144,6 +144,7 @@ Step solveStep(int64_t xx, int64_t xy, int64_t yy, Step right) {
 }
 
 int64_t leastInformation(const Information& i) {
+  if (i.xx == 0 || i.yy == 0) return 0;
   const int64_t sum = i.xx + i.yy, diff = i.xx - i.yy;
   const auto root = static_cast<int64_t>(
       integerSqrt(static_cast<uint64_t>(diff * diff) + 4 * static_cast<uint64_t>(i.xy * i.xy)));

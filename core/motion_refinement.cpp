@@ -46,6 +46,7 @@ void smooth(ImageView<const uint8_t> from, const Executor& executor, Image<uint8
 int judge(int reliability, const FitRegion& region, const MotionFit& fit,
           const MotionPrior& prior) {
   constexpr int64_t kMisfit = kFine * 3 / 2, kGain = 4;
+  if (reliability == 0) return 0;
   if (fit.seen * int64_t{4} < region.pixels * int64_t{3}) return 0;
   int64_t left = kGain * reliability;
   for (int i = 0; i < 2; ++i) left = left * kMisfit / (kMisfit + fit.misfit);
@@ -73,6 +74,13 @@ int64_t slackOf(const MotionFit& own, const MotionPrior& prior, int reliability)
 int64_t penalty(Point at, const MotionPrior& prior, int64_t slack) {
   const int64_t distance = squaredDistance(at, prior.at);
   return slack * distance / (distance + int64_t{kFine} * kFine);
+}
+
+/// A region of which nothing is matched moves as its neighbours expect.
+MotionFit withoutPixels(const MotionFit& own, const MotionPrior& prior) {
+  MotionFit fit = own;
+  if (prior.weight > 0) fit.at = prior.at;
+  return fit;
 }
 
 }  // namespace
@@ -125,7 +133,8 @@ MotionRefinement::Candidate MotionRefinement::fitAlone(const FitRegion& region,
                                                        const RegionMotion& motion) const {
   MotionFit start;
   start.at = {motion.dx * kFinePerUnit, motion.dy * kFinePerUnit};
-  Candidate best;
+  Candidate best{start, 0};
+  if (region.parts.empty()) return best;
   int64_t known = -1;
   for (size_t i = 0; i < planes_.size(); ++i) {
     const auto plane = static_cast<uint8_t>(i);
@@ -140,12 +149,12 @@ MotionRefinement::Candidate MotionRefinement::fitAlone(const FitRegion& region,
 
 MotionFit MotionRefinement::fitTogether(const FitRegion& region, const Candidate& own,
                                         const MotionPrior& prior, int reliability) const {
+  if (region.parts.empty()) return withoutPixels(own.fit, prior);
   const FitPlane& plane = planes_[own.plane];
   const MotionFit mine = fitMotion(region, plane, own.fit, prior, kOwnSteps);
   if (squaredDistance(own.fit.at, prior.at) <= kNear * kNear || prior.weight == 0) return mine;
   MotionFit start;
   start.at = prior.at;
-  if (region.parts.empty()) return start;
   const MotionFit theirs = fitMotion(region, plane, start, prior, kPriorSteps);
   const int64_t slack = slackOf(own.fit, prior, reliability);
   return theirs.misfit + penalty(theirs.at, prior, slack) <=

@@ -2,8 +2,11 @@
 // The integer arithmetic that every backend shares. Each rounding rule has one name here.
 #pragma once
 
+#include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdint>
+#include <type_traits>
 
 namespace rg {
 
@@ -28,6 +31,16 @@ static_assert(divideRounded(5, 2) == 3 && divideRounded(-5, 2) == -3 && divideRo
 /// The largest integer whose square is not above `value`.
 [[nodiscard]] constexpr uint32_t integerSqrt(uint64_t value) {
   uint64_t root = 0;
+  if (!std::is_constant_evaluated()) {
+    // Of a double it is at most one off: 53 bits hold a root of 32 and more.
+    root = std::min<uint64_t>(static_cast<uint64_t>(std::sqrt(static_cast<double>(value))),
+                              UINT32_MAX);
+    if (root * root > value)
+      --root;
+    else if (root < UINT32_MAX && (root + 1) * (root + 1) <= value)
+      ++root;
+    return static_cast<uint32_t>(root);
+  }
   for (uint64_t bit = uint64_t{1} << 31; bit != 0; bit >>= 1)
     if ((root + bit) * (root + bit) <= value) root += bit;
   return static_cast<uint32_t>(root);
