@@ -4,13 +4,38 @@
 #include "core/pixel.hpp"
 
 #include <algorithm>
-#include <cstring>
 
 namespace rg {
 namespace {
 
+constexpr int kLaneBits = 16;
+
+/// ⌈2^16 / n⌉: exact divisors of sums of up to nine bytes.
+constexpr uint32_t kReciprocals[] = {0, 65536, 32768, 21846, 16384, 13108, 10923, 9363, 8192, 7282};
+
+uint8_t meanOf(uint64_t packed, int channel) {
+  const auto count = static_cast<uint32_t>(packed >> (3 * kLaneBits));
+  const auto sum = static_cast<uint32_t>(packed >> (channel * kLaneBits) & 0xFFFF);
+  return static_cast<uint8_t>((sum + count / 2) * kReciprocals[count] >> 16);
+}
+
+constexpr int kOneColour = 12;    // Largest difference of a channel within a pure cell.
 constexpr int kAlikeColours = 8;  // Largest difference of a channel.
-constexpr uint16_t kMargin = 6;   // Noise shall not decide: what is nearly as near stays.
+constexpr uint8_t kMargin = 5;    // Noise shall not decide: what is nearly as near stays.
+
+int farthestOf(const uint8_t* a, const uint8_t* b) {
+  return std::max({absDiff(a[0], b[0]), absDiff(a[1], b[1]), absDiff(a[2], b[2])});
+}
+
+/// Whether a colour is what pixels of two others mix to.
+bool lies(const uint8_t* colour, const uint8_t* one, const uint8_t* other) {
+  if (farthestOf(one, other) <= kAlikeColours) return false;
+  for (int c = 0; c < 3; ++c)
+    if (absDiff(colour[c], one[c]) + absDiff(colour[c], other[c]) >
+        absDiff(one[c], other[c]) + kAlikeColours)
+      return false;
+  return true;
+}
 
 }  // namespace
 
@@ -20,11 +45,26 @@ void BorderPixels::refine(const ColourCells& cells, ImageView<const uint16_t> ce
   cells_ = cells.cells();
   cellIds_ = cellIds;
   ids_ = ids;
+  packed_.resize(cells_.size);
+  executor.forRows(cells_.size.height, [&](int first, int last) {
+    for (int row = first; row < last; ++row) pack(row);
+  });
   scratch_.resize(static_cast<size_t>(executor.threads()));
   executor.forEach(cells_.size.height, [&](int cellRow, int thread) {
     spread(cellRow);
     refineRow(cellRow, scratch_[static_cast<size_t>(thread)]);
   });
+}
+
+void BorderPixels::pack(int cellRow) {
+  const uint8_t *red = cells_.colours[0].row(cellRow), *green = cells_.colours[1].row(cellRow);
+  const uint8_t *blue = cells_.colours[2].row(cellRow), *ranges = cells_.ranges.row(cellRow);
+  PackedCell* to = packed_.row(cellRow);
+  for (int x = 0; x < cells_.size.width; ++x) {
+    const uint64_t colour = uint64_t{1} << (3 * kLaneBits) | uint64_t{blue[x]} << (2 * kLaneBits) |
+                            uint64_t{green[x]} << kLaneBits | red[x];
+    to[x] = {colour, ranges[x] <= kOneColour ? colour : 0};
+  }
 }
 
 /// Gives every pixel the region of its cell.
@@ -55,64 +95,86 @@ void BorderPixels::refineRow(int cellRow, Scratch& scratch) const {
   for (int x = 0; x < width; ++x)
     if (own[x] != 0 && std::min({least[x - 1], least[x], least[x + 1]}) !=
                            std::max({most[x - 1], most[x], most[x + 1]}))
-      refineCell(x, cellRow, scratch);
+      refineCell(x, cellRow);
   if (pixels_.scope.data == nullptr) return;
   const int top = cellRow * cells_.sidePx;
   for (int y = top; y < std::min(top + cells_.sidePx, pixels_.size.height); ++y) clearOutOfScope(y);
 }
 
-void BorderPixels::collectCandidates(int cellX, int cellY, simd::NearestColours& cell) const {
-  uint32_t sums[3][simd::kMostColours] = {}, cells[simd::kMostColours] = {};
-  cell.ids[0] = cellIds_.at(cellX, cellY);
-  cell.count = 1;
-  const Box around = intersect({cellX - 1, cellY - 1, 3, 3}, boundsOf(cells_.size));
+void BorderPixels::collect(int cellX, int cellY, Candidates& candidates) const {
+  Found found;
+  const uint16_t own = cellIds_.at(cellX, cellY);
+  const PackedCell& centre = packed_.at(cellX, cellY);
   const bool hasScope = cells_.scope.data != nullptr;
-  const uint8_t scope = hasScope ? cells_.scope.at(cellX, cellY) : kInScope;
-  for (int y = around.y; y < around.bottom(); ++y)
-    for (int x = around.x; x < around.right(); ++x) {
-      const uint16_t id = cellIds_.at(x, y);
-      if (id == 0 || (x == cellX && y == cellY) || (hasScope && cells_.scope.at(x, y) != scope))
-        continue;
+  const uint8_t ownScope = hasScope ? cells_.scope.at(cellX, cellY) : kInScope;
+  // A cell of several colours says nothing of its own region.
+  found.ids[0] = own;
+  found.all[0] = found.pure[0] = centre.pure;
+  const int left = std::max(cellX - 1, 0), right = std::min(cellX + 1, cells_.size.width - 1);
+  for (int y = std::max(cellY - 1, 0); y <= std::min(cellY + 1, cells_.size.height - 1); ++y) {
+    const uint16_t* ids = cellIds_.row(y);
+    const PackedCell* packed = packed_.row(y);
+    const uint8_t* scope = hasScope ? cells_.scope.row(y) : nullptr;
+    for (int x = left; x <= right; ++x) {
+      if (x == cellX && y == cellY) continue;
+      const uint16_t id = ids[x];
+      if (id == 0 || (scope != nullptr && scope[x] != ownScope)) continue;
       int k = 0;
-      while (k < cell.count && cell.ids[k] != id) ++k;
-      if (k == cell.count) cell.ids[cell.count++] = id;
-      for (size_t c = 0; c < 3; ++c) sums[c][k] += cells_.colours[c].at(x, y);
-      ++cells[k];
+      while (k < found.count && found.ids[k] != id) ++k;
+      if (k == found.count) {
+        found.ids[k] = id;
+        found.all[k] = found.pure[k] = 0;
+        ++found.count;
+      }
+      found.all[k] += packed[x].colour;
+      found.pure[k] += packed[x].pure;
     }
-  if (cells[0] == 0) {
-    cells[0] = 1;
-    for (size_t c = 0; c < 3; ++c) sums[c][0] = cells_.colours[c].at(cellX, cellY);
   }
-  int kept = 0;
-  for (int k = 0; k < cell.count; ++k) {
-    int farthest = 0;
-    for (size_t c = 0; c < 3; ++c) {
-      const auto mean = static_cast<uint8_t>((sums[c][k] + cells[k] / 2) / cells[k]);
-      cell.candidates[c][kept] = mean;
-      farthest = std::max(farthest, absDiff(mean, cell.candidates[c][0]));
-    }
-    cell.ids[kept] = cell.ids[k];
-    if (k == 0 || farthest > kAlikeColours) ++kept;
-  }
-  cell.count = kept;
+  if (found.all[0] == 0) found.all[0] = centre.colour;
+  choose(found, candidates);
 }
 
-void BorderPixels::refineCell(int cellX, int cellY, Scratch& scratch) const {
-  constexpr int kLanes = 16;
-  simd::NearestColours& cell = scratch.cell;
-  collectCandidates(cellX, cellY, cell);
-  if (cell.count < 2) return;
+void BorderPixels::choose(const Found& found, Candidates& candidates) {
+  uint8_t colours[simd::kMostColours][3];
+  for (int k = 0; k < found.count; ++k)
+    for (int c = 0; c < 3; ++c)
+      colours[k][c] = meanOf(found.pure[k] != 0 ? found.pure[k] : found.all[k], c);
+  const auto isBetween = [&](int k) {
+    for (int i = 0; i < found.count; ++i)
+      for (int j = 0; j < found.count && found.pure[i] != 0; ++j)
+        if (j != k && lies(colours[k], colours[i], colours[j])) return true;
+    return false;
+  };
+  simd::CellColours& cell = candidates.cell;
+  cell.count = 0;
+  for (int k = 0; k < found.count; ++k) {
+    if (found.pure[k] == 0 && found.count > 2 && isBetween(k)) continue;
+    if (cell.count > 0 && farthestOf(colours[k], cell.candidates[0]) <= kAlikeColours) continue;
+    std::copy_n(colours[k], 3, cell.candidates[cell.count]);
+    candidates.ids[cell.count++] = found.ids[k];
+  }
+}
+
+void BorderPixels::refineCell(int cellX, int cellY) const {
+  Candidates candidates;
+  collect(cellX, cellY, candidates);
+  simd::CellColours& cell = candidates.cell;
+  const bool isMoved = candidates.ids[0] != cellIds_.at(cellX, cellY);
+  if (cell.count < 2 && !isMoved) return;
   const int side = cells_.sidePx;
   const Box box = intersect({cellX * side, cellY * side, side, side}, boundsOf(pixels_.size));
-  for (int y = 0; y < box.height; ++y)
-    for (size_t c = 0; c < 3; ++c)
-      std::memcpy(cell.colours[c] + y * side, pixels_.colours[c].row(box.y + y) + box.x,
-                  static_cast<size_t>(box.width));
-  cell.pixels = (side * side + kLanes - 1) / kLanes * kLanes;
+  for (size_t c = 0; c < 3; ++c) {
+    cell.pixels[c] = pixels_.colours[c].row(box.y) + box.x;
+    cell.strides[c] = pixels_.colours[c].strideBytes;
+  }
+  cell.side = side;
+  cell.rows = box.height;
   cell.margin = kMargin;
-  simd::chooseColours(cell, scratch.ids);
+  uint8_t choices[64];
+  if (!simd::chooseColours(cell, choices) && !isMoved) return;
   for (int y = 0; y < box.height; ++y)
-    std::copy_n(scratch.ids + y * side, box.width, ids_.row(box.y + y) + box.x);
+    for (int x = 0; x < box.width; ++x)
+      ids_.row(box.y + y)[box.x + x] = candidates.ids[choices[y * side + x]];
 }
 
 void BorderPixels::clearOutOfScope(int y) const {

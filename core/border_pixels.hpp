@@ -3,7 +3,9 @@
 // where its colour fits (part of stage 2).
 //
 // The candidates are the regions of the 3x3 cells round it, each with the mean colour of its cells
-// there; the cell itself, which the border may cross, counts only where its region has no other.
+// there, of those of one colour if there are any: a cell of several colours may be crossed by a
+// border. A region that has only such cells there, of a colour between those of two others, is the
+// ramp of the edge between them and no candidate.
 // Candidates whose colours are within kAlikeColours of the cell's own are none: between them noise
 // would draw the border. A pixel stays with its cell's region unless another is nearer by the sum
 // of absolute differences of the channels, or nearer than others that come before in raster order.
@@ -28,20 +30,36 @@ class BorderPixels {
               ImageView<uint16_t> ids);
 
  private:
+  /// Regions round a cell: packed sums of their cells there, and of those of one colour.
+  struct Found {
+    uint64_t all[simd::kMostColours], pure[simd::kMostColours];
+    uint16_t ids[simd::kMostColours];
+    int count = 1;
+  };
+  struct Candidates {
+    uint16_t ids[simd::kMostColours];
+    simd::CellColours cell;
+  };
   /// Of one thread.
   struct Scratch {
     std::vector<uint16_t> least, most;
-    simd::NearestColours cell;
-    uint16_t ids[simd::kMostPixels] = {};
   };
 
+  void pack(int cellRow);
   void spread(int cellRow) const;
   void refineRow(int cellRow, Scratch& scratch) const;
-  void collectCandidates(int cellX, int cellY, simd::NearestColours& cell) const;
-  void refineCell(int cellX, int cellY, Scratch& scratch) const;
+  void collect(int cellX, int cellY, Candidates& candidates) const;
+  static void choose(const Found& found, Candidates& candidates);
+  void refineCell(int cellX, int cellY) const;
   void clearOutOfScope(int y) const;
 
   ColourPlanes pixels_, cells_;
+  /// A cell, to be summed.
+  struct PackedCell {
+    uint64_t colour = 0;  ///< Its channels and a 1 to count it, in four lanes.
+    uint64_t pure = 0;    ///< The same of a cell of one colour, else 0.
+  };
+  Image<PackedCell> packed_;
   ImageView<const uint16_t> cellIds_;
   ImageView<uint16_t> ids_;
   std::vector<Scratch> scratch_;

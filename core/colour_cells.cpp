@@ -36,11 +36,11 @@ void ColourCells::build(const Picture& picture, ImageView<const uint8_t> scope, 
   pixels_.scope = scope;
   cells_ = pixels_;
   if (side_ > 1) {
-    weights_.resize(cellSize);
-    cellScope_.resize(cellSize);
+    for (Image<uint8_t>* plane : {&weights_, &cellScope_, &ranges_}) plane->resize(cellSize);
     cells_ = planesOf(means_, channels, cellSize);
     cells_.sidePx = side_;
     cells_.weights = weights_;
+    cells_.ranges = ranges_;
     if (scope.data != nullptr) cells_.scope = cellScope_;
   }
 
@@ -85,6 +85,7 @@ void ColourCells::averageRow(int cellRow, Scratch& scratch) {
   scratch.sums.resize(static_cast<size_t>(cells_.size.width) * static_cast<size_t>(side_));
   scratch.half.resize(scratch.sums.size());
   countRow(cellRow, columns, scratch);
+  findRanges(cellRow, columns, scratch);
   const int first = columns.first * side_;
   const int count = std::min(first + padded, pixels_.size.width) - first;
   for (int c = 0; c < cells_.channels; ++c) {
@@ -98,6 +99,30 @@ void ColourCells::averageRow(int cellRow, Scratch& scratch) {
     }
     simd::divideRow(reduce(columns.count(), scratch), weights_.row(cellRow) + columns.first,
                     columns.count(), means_[static_cast<size_t>(c)].row(cellRow) + columns.first);
+  }
+}
+
+void ColourCells::findRanges(int cellRow, Span columns, Scratch& scratch) {
+  const int top = cellRow * side_, bottom = std::min(top + side_, pixels_.size.height);
+  const int first = columns.first * side_, padded = columns.count() * side_;
+  const int count = std::min(first + padded, pixels_.size.width) - first;
+  uint8_t* ranges = ranges_.row(cellRow) + columns.first;
+  std::fill_n(ranges, columns.count(), uint8_t{0});
+  for (auto* row : {&scratch.least, &scratch.most}) row->resize(static_cast<size_t>(padded));
+  uint8_t *least = scratch.least.data(), *most = scratch.most.data();
+  for (int c = 0; c < cells_.channels; ++c) {
+    std::fill_n(least, padded, uint8_t{255});
+    std::fill_n(most, padded, uint8_t{0});
+    for (int y = top; y < bottom; ++y) {
+      const uint8_t* row = smooth_[static_cast<size_t>(c)].row(y) + first;
+      if (pixels_.scope.data == nullptr)
+        simd::widenRow(row, count, least, most);
+      else
+        simd::widenScopedRow(row, pixels_.scope.row(y) + first, count, least, most);
+    }
+    for (int side = side_; side > 1; side /= 2)
+      simd::widenPairs(columns.count() * side / 2, least, most);
+    simd::raiseRanges(least, most, columns.count(), ranges);
   }
 }
 

@@ -26,7 +26,9 @@ struct ColourPlanes {
   std::array<ImageView<const uint8_t>, 3> colours;  ///< Of one channel: three times the same.
   ImageView<const uint8_t> scope;                   ///< Without data: all.
   ImageView<const uint8_t> weights;                 ///< Pixels of each; without data: 1 each.
-  int sidePx = 1;                                   ///< Of the pixels or cells.
+  /// Of cells: the largest difference of a channel between two pixels in scope.
+  ImageView<const uint8_t> ranges;
+  int sidePx = 1;  ///< Of the pixels or cells.
 };
 
 class ColourCells {
@@ -47,10 +49,12 @@ class ColourCells {
   struct Scratch {
     std::vector<uint8_t> down;
     std::vector<uint16_t> sums, half;
+    std::vector<uint8_t> least, most;
   };
 
   void smoothRow(int y, int channel, Scratch& scratch);
   void averageRow(int cellRow, Scratch& scratch);
+  void findRanges(int cellRow, Span columns, Scratch& scratch);
   void countRow(int cellRow, Span columns, Scratch& scratch);
   const uint16_t* reduce(int cells, Scratch& scratch) const;
 
@@ -58,7 +62,7 @@ class ColourCells {
   RowSpans spans_;
   std::array<ImageView<const uint8_t>, 3> source_;
   std::array<Image<uint8_t>, 3> smooth_, means_;
-  Image<uint8_t> cellScope_, weights_;
+  Image<uint8_t> cellScope_, weights_, ranges_;
   std::vector<Scratch> scratch_;
   ColourPlanes pixels_, cells_;
 };

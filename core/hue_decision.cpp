@@ -2,6 +2,7 @@
 #include "core/hue_decision.hpp"
 
 #include "core/colour_links.hpp"
+#include "core/row_spans.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -62,7 +63,7 @@ void settleRow(const Image<uint8_t>& raw, int y, ImageView<const uint8_t> scope,
     const uint8_t own = rows[1][x];
     const bool isSettled = own == kNoHue || votes == 0;
     const uint8_t settled = votes > 0 ? kObjectHue : kBackgroundHue;
-    out[x] = isIn && isIn[x] != 255 ? kBackgroundHue : isSettled ? own : settled;
+    out[x] = isIn && !isInScope(isIn[x]) ? kBackgroundHue : isSettled ? own : settled;
   }
 }
 
@@ -131,8 +132,7 @@ void classifyHues(const Picture& picture, const HueRules& rules, const HueBand& 
   const int width = raw.width();
   // Only what is looked at is converted.
   const auto isNear = [&](int y) {
-    return !scope.data ||
-           std::find(scope.row(y), scope.row(y) + width, 255) != scope.row(y) + width;
+    return !scope.data || std::any_of(scope.row(y), scope.row(y) + width, isInScope);
   };
   executor.forRows(raw.height(), [&](int first, int last) {
     for (int y = first; y < last; ++y) {
@@ -143,7 +143,7 @@ void classifyHues(const Picture& picture, const HueRules& rules, const HueBand& 
                     *blue = picture.blue().row(y);
       const uint8_t* isIn = scope.data ? scope.row(y) : nullptr;
       for (int x = 0; x < width; ++x)
-        if (!isIn || isIn[x] == 255) out[x] = judge(red[x], green[x], blue[x]);
+        if (!isIn || isInScope(isIn[x])) out[x] = judge(red[x], green[x], blue[x]);
     }
   });
   executor.forRows(raw.height(), [&](int first, int last) {

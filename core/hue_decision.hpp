@@ -49,7 +49,7 @@ struct HueRules {
 /// Reads both properties of hsvsegment: `background` may also be empty (Ignored) or "auto".
 [[nodiscard]] Result<HueRules> parseHueRules(std::string_view background, std::string_view object);
 
-/// Writes the class of every pixel that `scope` is 255 for (all, where it has no data), else
+/// Writes the class of every pixel in scope (core/row_spans.hpp; all, where it has no data), else
 /// kBackgroundHue. `peak`: what findFrameBand() says; widened by kHueGuard on both sides, since
 /// noise turns the hue of dark pixels. A pixel is of an object when most chromatic ones of its 3x3
 /// are.

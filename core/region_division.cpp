@@ -6,6 +6,17 @@
 #include <algorithm>
 
 namespace rg {
+namespace {
+
+/// Writes whole blocks where the row goes on: what is written beyond a run is written again.
+void fillRun(const PixelRun& run, uint16_t value, int width, uint16_t* to) {
+  constexpr int kBlock = 32;
+  int x = run.first;
+  for (; x < run.last && x + kBlock <= width; x += kBlock) std::fill_n(to + x, kBlock, value);
+  if (x < run.last) std::fill(to + x, to + run.last, value);
+}
+
+}  // namespace
 
 void BorderList::clear() {
   borders_.clear();
@@ -28,18 +39,53 @@ uint32_t RegionDivision::run(const ColourPlanes& planes, const PixelRuns& runs,
                              ImageView<uint16_t> ids) {
   planes_ = planes;
   runs_ = &runs;
-  collectRegions(executor);
+  sumParts(executor, [this](int y) { addRow(y); });
+  for (uint32_t i = 0; i < runs_->count(); ++i) {
+    if (runs_->part(i) != i) continue;
+    AbsorbedRegion& region = absorption_.regions()[runs_->component(i)];
+    region.red += sums_[i].red;
+    region.green += sums_[i].green;
+    region.blue += sums_[i].blue;
+    region.areaPx += sums_[i].areaPx;
+  }
+  return divide(limits, executor, ids);
+}
+
+uint32_t RegionDivision::runAgain(const RegionDivision& first, const ColourPlanes& planes,
+                                  const PixelRuns& runs, const Limits& limits,
+                                  const Executor& executor, ImageView<uint16_t> ids) {
+  planes_ = planes;
+  runs_ = &runs;
+  sumParts(executor, [&](int y) { addLabels(y, ids.row(y)); });
+  std::vector<AbsorbedRegion>& regions = absorption_.regions();
+  for (uint32_t i = 0; i < runs_->count(); ++i) {
+    if (runs_->part(i) != i) continue;
+    AbsorbedRegion& region = regions[runs_->component(i)];
+    region.areaPx += sums_[i].areaPx;
+    region.representative = sums_[i].label;
+  }
+  for (AbsorbedRegion& region : regions) {
+    const AbsorbedRegion& whole = first.labelled_[region.representative];
+    region.red = whole.red * region.areaPx / whole.areaPx;
+    region.green = whole.green * region.areaPx / whole.areaPx;
+    region.blue = whole.blue * region.areaPx / whole.areaPx;
+  }
+  return divide(limits, executor, ids);
+}
+
+uint32_t RegionDivision::divide(const Limits& limits, const Executor& executor,
+                                ImageView<uint16_t> ids) {
   collectBorders(executor);
-  absorption_.run({limits.minAreaPx, limits.maxRegions, static_cast<uint32_t>(planes.sidePx)});
+  absorption_.run({limits.minAreaPx, limits.maxRegions, static_cast<uint32_t>(planes_.sidePx)});
   const uint32_t count = numberRegions(limits.maxRegions);
-  executor.forRows(planes.size.height, [&](int first, int last) {
+  executor.forRows(planes_.size.height, [&](int first, int last) {
     for (int y = first; y < last; ++y) writeRow(y, ids.row(y));
   });
   return count;
 }
 
 // Sums by part first: bands have those of their own.
-void RegionDivision::collectRegions(const Executor& executor) {
+void RegionDivision::sumParts(const Executor& executor, const std::function<void(int y)>& addRow) {
   sums_.resize(runs_->count());
   executor.forEach(runs_->bandCount(), [&](int band) {
     const Span rows = runs_->bandRows(band);
@@ -47,15 +93,15 @@ void RegionDivision::collectRegions(const Executor& executor) {
               sums_.begin() + runs_->rowStart(rows.last), Sums{});
     for (int y = rows.first; y < rows.last; ++y) addRow(y);
   });
-  std::vector<AbsorbedRegion>& regions = absorption_.regions();
-  regions.assign(runs_->componentCount(), {});
-  for (uint32_t i = 0; i < runs_->count(); ++i) {
-    if (runs_->part(i) != i) continue;
-    AbsorbedRegion& region = regions[runs_->component(i)];
-    region.red += sums_[i].red;
-    region.green += sums_[i].green;
-    region.blue += sums_[i].blue;
-    region.areaPx += sums_[i].areaPx;
+  absorption_.regions().assign(runs_->componentCount(), {});
+}
+
+void RegionDivision::addLabels(int y, const uint16_t* labels) {
+  for (uint32_t i = runs_->rowStart(y); i < runs_->rowStart(y + 1); ++i) {
+    const PixelRun& run = runs_->run(i);
+    Sums& sums = sums_[runs_->part(i)];
+    sums.areaPx += static_cast<uint32_t>(run.last - run.first);
+    sums.label = labels[run.first];
   }
 }
 
@@ -137,19 +183,21 @@ uint32_t RegionDivision::numberRegions(uint32_t maxRegions) {
     if (number == kOpen) number = ++count;
     numbers_[i] = number;
   }
+  labelled_.assign(count + 1, {});
+  for (const AbsorbedRegion& region : left) labelled_[numbers_[region.representative]] = region;
   return count;
 }
 
 void RegionDivision::writeRow(int y, uint16_t* ids) const {
+  const int width = planes_.size.width;
   int done = 0;
   for (uint32_t i = runs_->rowStart(y); i < runs_->rowStart(y + 1); ++i) {
     const PixelRun& run = runs_->run(i);
     std::fill(ids + done, ids + run.first, uint16_t{0});
-    std::fill(ids + run.first, ids + run.last,
-              static_cast<uint16_t>(numbers_[runs_->component(i)]));
+    fillRun(run, static_cast<uint16_t>(numbers_[runs_->component(i)]), width, ids);
     done = run.last;
   }
-  std::fill(ids + done, ids + planes_.size.width, uint16_t{0});
+  std::fill(ids + done, ids + width, uint16_t{0});
 }
 
 }  // namespace rg

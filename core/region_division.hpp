@@ -14,6 +14,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace rg {
@@ -44,9 +45,16 @@ class RegionDivision {
   uint32_t run(const ColourPlanes& planes, const PixelRuns& runs, const Limits& limits,
                const Executor& executor, ImageView<uint16_t> ids);
 
+  /// The same for the parts of equal labels that `runs` are, where the labels in `ids` are those of
+  /// `first`, moved a little: each part has the mean colour of its label's region.
+  uint32_t runAgain(const RegionDivision& first, const ColourPlanes& planes, const PixelRuns& runs,
+                    const Limits& limits, const Executor& executor, ImageView<uint16_t> ids);
+
  private:
-  void collectRegions(const Executor& executor);
+  uint32_t divide(const Limits& limits, const Executor& executor, ImageView<uint16_t> ids);
+  void sumParts(const Executor& executor, const std::function<void(int y)>& addRow);
   void addRow(int y);
+  void addLabels(int y, const uint16_t* labels);
   void collectBorders(const Executor& executor);
   void collectBorders(int y, BorderList& borders) const;
   uint32_t numberRegions(uint32_t maxRegions);
@@ -57,10 +65,12 @@ class RegionDivision {
   struct Sums {
     uint32_t red = 0, green = 0, blue = 0;  // Of a band's pixels: 255 · 2^14 · 64 < 2^32.
     uint32_t areaPx = 0;
+    uint32_t label = 0;
   };
   std::vector<Sums> sums_;  ///< Of each part, at its first run.
   std::vector<BorderList> bands_;
   Absorption absorption_;
+  std::vector<AbsorbedRegion> labelled_;  ///< What is left, by label.
   std::vector<uint32_t> numbers_;
   std::vector<uint64_t> order_;
 };

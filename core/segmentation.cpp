@@ -92,7 +92,7 @@ class CpuSegmentation : public SegmentationStage {
   ImageView<const uint8_t> chooseScope(const Picture& picture, const Foreground* foreground,
                                        Scope scope);
   ImageView<const uint8_t> closeGaps(const Picture& picture, const Foreground& foreground);
-  void coverAreas(const Foreground& foreground);
+  ImageView<const uint8_t> coverAreas(const Foreground& foreground, uint8_t around);
   ImageView<const uint8_t> decideByHue(const Picture& picture, const Foreground* foreground,
                                        const HueRules& rules, const HueBand& band,
                                        ImageView<const uint8_t> scope, Labels& labels);
@@ -120,7 +120,7 @@ Result<std::shared_ptr<const Labels>> CpuSegmentation::process(
     return Error{"scopes foreground and areas need a foreground: add bgremove upstream"};
   if (!picture || (foreground && foreground->status == Status::Skipped))
     return skipped(pool_, params.scope, foreground ? foreground->size : Size{});
-  if (foreground && (wantsForeground || foreground->interest) &&
+  if (foreground && (wantsForeground || foreground->interest || !foreground->areas.empty()) &&
       foreground->mask.size() != picture->size())
     return Error{"the foreground was made for another frame size"};
 
@@ -164,22 +164,16 @@ void CpuSegmentation::divide(const Picture& picture, ImageView<const uint8_t> sc
                     executor, cellIds_);
   borderPixels_.refine(cells_, cellIds_, executor, labels.ids);
   runs_.build(labels.ids, {}, executor);
-  labels.count = division_.run(cells_.pixels(), runs_, {limits.minAreaPx, limits.maxRegions},
-                               executor, labels.ids);
+  labels.count = division_.runAgain(cellDivision_, cells_.pixels(), runs_,
+                                    {limits.minAreaPx, limits.maxRegions}, executor, labels.ids);
 }
 
-/// The pixels that may get a region are kForegroundPixel; without data: all.
+/// A scope plane; without data: all pixels.
 ImageView<const uint8_t> CpuSegmentation::chooseScope(const Picture& picture,
                                                       const Foreground* foreground, Scope scope) {
-  switch (scope) {
-    case Scope::Foreground:
-      return closeGaps(picture, *foreground);
-    case Scope::Areas:
-      coverAreas(*foreground);
-      return scope_;
-    case Scope::Frame:
-      break;
-  }
+  if (scope == Scope::Foreground) return closeGaps(picture, *foreground);
+  if (scope == Scope::Areas) return coverAreas(*foreground, kBackgroundPixel);
+  if (foreground && !foreground->areas.empty()) return coverAreas(*foreground, kInScopeApart);
   if (foreground && foreground->interest) return *foreground->interest;
   return {};
 }
@@ -201,16 +195,17 @@ ImageView<const uint8_t> CpuSegmentation::closeGaps(const Picture& picture,
   return scope_;
 }
 
-void CpuSegmentation::coverAreas(const Foreground& foreground) {
+ImageView<const uint8_t> CpuSegmentation::coverAreas(const Foreground& foreground, uint8_t around) {
   const Size size = foreground.mask.size();
   scope_.resize(size);
-  scope_.fill(kBackgroundPixel);
+  scope_.fill(around);
   for (const Box& area : foreground.areas) {
-    const Box box = intersect(inflate(area, kAreaMargin), boundsOf(size));
+    const Box box = coverOf(area, size);
     for (int y = box.y; y < box.bottom(); ++y)
-      std::fill_n(scope_.row(y) + box.x, box.width, kForegroundPixel);
+      std::fill_n(scope_.row(y) + box.x, box.width, kInScope);
   }
   if (foreground.interest) keepInside(*foreground.interest, scope_);
+  return scope_;
 }
 
 ImageView<const uint8_t> CpuSegmentation::decideByHue(const Picture& picture,
@@ -234,10 +229,10 @@ ImageView<const uint8_t> CpuSegmentation::decideByHue(const Picture& picture,
     const uint8_t* evidence = hasEvidence ? foreground->mask.row(y) : nullptr;
     uint8_t* out = decided_.row(y);
     for (int x = 0; x < labels.size.width; ++x) {
-      const bool isIn = (!scope.data || scope.row(y)[x] == kForegroundPixel) &&
-                        (hue[x] == kObjectHue ||
-                         (hue[x] == kNoHue && evidence && evidence[x] == kForegroundPixel));
-      out[x] = isIn ? kForegroundPixel : kBackgroundPixel;
+      const bool isIn =
+          hue[x] == kObjectHue || (hue[x] == kNoHue && evidence && evidence[x] == kForegroundPixel);
+      const uint8_t own = scope.data ? scope.row(y)[x] : kInScope;
+      out[x] = isIn ? own : kBackgroundPixel;
     }
   }
   return decided_;

@@ -22,14 +22,27 @@ namespace rg {
 
 /// Which pixels get a region.
 enum class Scope : uint8_t {
-  Frame,       ///< All: the camera may move, the largest merged group is the background.
+  Frame,       ///< All: the camera may move, the largest merged group is the background. No region
+               ///< crosses the cover of bgremove's areas, if there are any: inside it they are
+               ///< those of Scope::Areas, as far as maxRegions isn't reached.
   Foreground,  ///< Those that bgremove marked, and gaps in them at whose border no colour ends
                ///< (core/mask_gaps.hpp); the rest has label 0.
-  Areas,       ///< Those in the boxes of bgremove's areas and kAreaMargin around; the rest has 0.
+  Areas,       ///< Those that bgremove's areas cover (coverOf); the rest has 0.
 };
 
 inline constexpr uint16_t kNoRegion = 0;
-inline constexpr int kAreaMargin = 8;
+inline constexpr int kAreaMargin = 4;
+
+/// What an area covers: kAreaMargin pixels around its box, up to whole 8x8 cells of the frame.
+[[nodiscard]] constexpr Box coverOf(const Box& area, Size frame) {
+  constexpr int kCell = 8;
+  const Box box = intersect(inflate(area, kAreaMargin), boundsOf(frame));
+  const int left = box.x / kCell * kCell, top = box.y / kCell * kCell;
+  const int right = (box.right() + kCell - 1) / kCell * kCell;
+  const int bottom = (box.bottom() + kCell - 1) / kCell * kCell;
+  return intersect({left, top, right - left, bottom - top}, boundsOf(frame));
+}
+static_assert(coverOf({13, 20, 10, 10}, {40, 30}) == Box{8, 16, 24, 14});
 
 /// What hsvsegment says of one frame. Immutable once published.
 struct Labels {

@@ -33,8 +33,8 @@ GType scopeType() {
       {static_cast<int>(ScopeChoice::Foreground),
        "What bgremove marked as foreground, and gaps in it where no colour ends", "foreground"},
       {static_cast<int>(ScopeChoice::Areas),
-       "The boxes of bgremove's areas and 8 pixels around: only their pixels are converted and "
-       "labelled",
+       "The boxes of bgremove's areas and 4 to 11 pixels around: only their pixels are converted "
+       "and labelled",
        "areas"},
       {0, nullptr, nullptr}};
   static const GType type = registerEnum("GstRegionScopeChoice", values);

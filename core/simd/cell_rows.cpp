@@ -58,28 +58,94 @@ void divideRow(const uint16_t* HWY_RESTRICT sums, const uint8_t* HWY_RESTRICT co
   }
 }
 
-uint16_t difference(uint8_t a, uint8_t b) {
-  return static_cast<uint16_t>(a > b ? a - b : b - a);
+uint8_t smaller(uint8_t a, uint8_t b) {
+  return a < b ? a : b;
 }
 
-void chooseColours(const NearestColours& cell, uint16_t* HWY_RESTRICT to) {
-  uint16_t least[kMostPixels];
-  const int pixels = cell.pixels;
-  for (int i = 0; i < pixels; ++i) least[i] = 0xFFFF;
-  for (int k = 0; k < cell.count; ++k) {
-    const uint8_t red = cell.candidates[0][k], green = cell.candidates[1][k];
-    const uint8_t blue = cell.candidates[2][k];
-    const uint16_t id = cell.ids[k];
-    const uint16_t extra = k == 0 ? uint16_t{0} : cell.margin;
-    for (int i = 0; i < pixels; ++i) {
-      const auto distance = static_cast<uint16_t>(difference(cell.colours[0][i], red) +
-                                                  difference(cell.colours[1][i], green) +
-                                                  difference(cell.colours[2][i], blue) + extra);
-      const bool isNearer = distance < least[i];
-      least[i] = isNearer ? distance : least[i];
-      to[i] = isNearer ? id : to[i];
-    }
+uint8_t larger(uint8_t a, uint8_t b) {
+  return a > b ? a : b;
+}
+
+void widenRow(const uint8_t* HWY_RESTRICT from, int count, uint8_t* HWY_RESTRICT least,
+              uint8_t* HWY_RESTRICT most) {
+  for (int i = 0; i < count; ++i) {
+    least[i] = smaller(least[i], from[i]);
+    most[i] = larger(most[i], from[i]);
   }
+}
+
+void widenScopedRow(const uint8_t* HWY_RESTRICT from, const uint8_t* HWY_RESTRICT scope, int count,
+                    uint8_t* HWY_RESTRICT least, uint8_t* HWY_RESTRICT most) {
+  for (int i = 0; i < count; ++i) {
+    const bool isIn = scope[i] >= kInScopeApart;
+    least[i] = smaller(least[i], isIn ? from[i] : uint8_t{255});
+    most[i] = larger(most[i], isIn ? from[i] : uint8_t{0});
+  }
+}
+
+// Blocks are read before they are written: in place, yet of independent elements.
+void widenPairs(int count, uint8_t* HWY_RESTRICT least, uint8_t* HWY_RESTRICT most) {
+  constexpr int kBlock = 64;
+  for (int x = 0; x < count; x += kBlock) {
+    const int n = count - x < kBlock ? count - x : kBlock;
+    uint8_t low[kBlock], high[kBlock];
+    for (int i = 0; i < n; ++i) low[i] = smaller(least[2 * (x + i)], least[2 * (x + i) + 1]);
+    for (int i = 0; i < n; ++i) high[i] = larger(most[2 * (x + i)], most[2 * (x + i) + 1]);
+    std::memcpy(least + x, low, static_cast<size_t>(n));
+    std::memcpy(most + x, high, static_cast<size_t>(n));
+  }
+}
+
+void raiseRanges(const uint8_t* HWY_RESTRICT least, const uint8_t* HWY_RESTRICT most, int count,
+                 uint8_t* HWY_RESTRICT ranges) {
+  for (int i = 0; i < count; ++i)
+    ranges[i] = larger(ranges[i], static_cast<uint8_t>(larger(most[i], least[i]) - least[i]));
+}
+
+constexpr int kMostPixels = 64;
+
+template <int kSide>
+void gather(const uint8_t* from, ptrdiff_t stride, int rows, uint8_t* HWY_RESTRICT to) {
+  for (int y = 0; y < rows; ++y) std::memcpy(to + y * kSide, from + y * stride, kSide);
+}
+
+void gather(const CellColours& cell, uint8_t (&pixels)[3][kMostPixels]) {
+  for (int c = 0; c < 3; ++c) {
+    if (cell.side == 2) gather<2>(cell.pixels[c], cell.strides[c], cell.rows, pixels[c]);
+    if (cell.side == 4) gather<4>(cell.pixels[c], cell.strides[c], cell.rows, pixels[c]);
+    if (cell.side == 8) gather<8>(cell.pixels[c], cell.strides[c], cell.rows, pixels[c]);
+  }
+}
+
+bool chooseColours(const CellColours& cell, uint8_t* HWY_RESTRICT choices) {
+  namespace hn = hwy::HWY_NAMESPACE;
+  const hn::CappedTag<uint8_t, 16> d;
+  using V = hn::Vec<decltype(d)>;
+  alignas(64) uint8_t pixels[3][kMostPixels] = {};
+  gather(cell, pixels);
+  const auto difference = [](V a, V b) {
+    return hn::Or(hn::SaturatedSub(a, b), hn::SaturatedSub(b, a));
+  };
+  V any = hn::Zero(d);
+  for (int i = 0; i < cell.side * cell.side; i += static_cast<int>(hn::Lanes(d))) {
+    const V red = hn::Load(d, pixels[0] + i), green = hn::Load(d, pixels[1] + i);
+    const V blue = hn::Load(d, pixels[2] + i);
+    V least = hn::Zero(d), choice = hn::Zero(d);
+    for (int k = 0; k < cell.count; ++k) {
+      const uint8_t* colour = cell.candidates[k];
+      const V distance =
+          hn::SaturatedAdd(hn::SaturatedAdd(difference(red, hn::Set(d, colour[0])),
+                                            difference(green, hn::Set(d, colour[1]))),
+                           hn::SaturatedAdd(difference(blue, hn::Set(d, colour[2])),
+                                            hn::Set(d, k == 0 ? uint8_t{0} : cell.margin)));
+      if (k == 0) least = distance;
+      choice = hn::IfThenElse(hn::Lt(distance, least), hn::Set(d, static_cast<uint8_t>(k)), choice);
+      least = hn::Min(distance, least);
+    }
+    any = hn::Or(any, choice);
+    hn::StoreU(choice, d, choices + i);
+  }
+  return !hn::AllTrue(d, hn::Eq(any, hn::Zero(d)));
 }
 
 void packSlowly(const uint16_t* a, const uint16_t* b, int count, uint64_t* words) {
@@ -136,6 +202,10 @@ HWY_EXPORT(countRow);
 HWY_EXPORT(addPairs);
 HWY_EXPORT(splitCounts);
 HWY_EXPORT(divideRow);
+HWY_EXPORT(widenRow);
+HWY_EXPORT(widenScopedRow);
+HWY_EXPORT(widenPairs);
+HWY_EXPORT(raiseRanges);
 HWY_EXPORT(chooseColours);
 HWY_EXPORT(packEqual);
 HWY_EXPORT(sumRow);
@@ -165,8 +235,25 @@ void divideRow(const uint16_t* sums, const uint8_t* counts, int count, uint8_t* 
   HWY_DYNAMIC_DISPATCH(divideRow)(sums, counts, count, to);
 }
 
-void chooseColours(const NearestColours& cell, uint16_t* to) {
-  HWY_DYNAMIC_DISPATCH(chooseColours)(cell, to);
+void widenRow(const uint8_t* from, int count, uint8_t* least, uint8_t* most) {
+  HWY_DYNAMIC_DISPATCH(widenRow)(from, count, least, most);
+}
+
+void widenScopedRow(const uint8_t* from, const uint8_t* scope, int count, uint8_t* least,
+                    uint8_t* most) {
+  HWY_DYNAMIC_DISPATCH(widenScopedRow)(from, scope, count, least, most);
+}
+
+void widenPairs(int count, uint8_t* least, uint8_t* most) {
+  HWY_DYNAMIC_DISPATCH(widenPairs)(count, least, most);
+}
+
+void raiseRanges(const uint8_t* least, const uint8_t* most, int count, uint8_t* ranges) {
+  HWY_DYNAMIC_DISPATCH(raiseRanges)(least, most, count, ranges);
+}
+
+bool chooseColours(const CellColours& cell, uint8_t* choices) {
+  return HWY_DYNAMIC_DISPATCH(chooseColours)(cell, choices);
 }
 
 void packEqual(const uint16_t* a, const uint16_t* b, int count, uint64_t* words) {

@@ -2,10 +2,11 @@
 // The loops that core/colour_cells.cpp and core/border_pixels.cpp are made of, compiled for every
 // instruction set.
 //
-// Each is written once, in plain integer arithmetic on independent elements; the compiler makes the
-// vectors. So all targets, the plain one among them, give the same bits.
+// Each is written once, in integer arithmetic on independent elements; of most the compiler makes
+// the vectors. So all targets, the plain one among them, give the same bits.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 namespace rg::simd {
@@ -23,21 +24,32 @@ void splitCounts(const uint16_t* sums, int count, uint8_t* counts, uint8_t* scop
 /// to[i] = sums[i] / counts[i], halves rounded up; 0 where the count is 0. Counts up to 64.
 void divideRow(const uint16_t* sums, const uint8_t* counts, int count, uint8_t* to);
 
-/// Colours that the pixels of a cell are compared with. The first is the one to stay with: another
-/// must be nearer by more than `margin`.
-inline constexpr int kMostPixels = 64;
+/// least[i] and most[i] take in from[i].
+void widenRow(const uint8_t* from, int count, uint8_t* least, uint8_t* most);
+/// The same for those in scope.
+void widenScopedRow(const uint8_t* from, const uint8_t* scope, int count, uint8_t* least,
+                    uint8_t* most);
+/// In place: least[i] and most[i] = those of the elements 2 i and 2 i + 1 before.
+void widenPairs(int count, uint8_t* least, uint8_t* most);
+/// Raises ranges[i] to most[i] - least[i], where that is not negative.
+void raiseRanges(const uint8_t* least, const uint8_t* most, int count, uint8_t* ranges);
+
+/// Square cells of pixels, and the colours that those are compared with. Whole rows of `side`
+/// bytes are read, those beyond the picture's width too; of rows only `rows`.
 inline constexpr int kMostColours = 9;
-struct NearestColours {
-  int pixels = 0;                        ///< A multiple of 16 up to kMostPixels.
-  uint8_t colours[3][kMostPixels] = {};  ///< Of the pixels, by channel.
-  int count = 0;                         ///< Of the candidates.
-  uint8_t candidates[3][kMostColours] = {};
-  uint16_t ids[kMostColours] = {};
-  uint16_t margin = 0;
+struct CellColours {
+  const uint8_t* pixels[3] = {};  ///< First pixel of the cell, by channel.
+  ptrdiff_t strides[3] = {};
+  int side = 0;  ///< 2, 4 or 8.
+  int rows = 0;
+  int count = 0;  ///< Of the candidates.
+  uint8_t candidates[kMostColours][3];
+  uint8_t margin = 0;
 };
-/// to[i] = the id of the candidate of least sum of absolute differences of the channels; of equal
-/// ones the first.
-void chooseColours(const NearestColours& cell, uint16_t* to);
+/// choices[side y + x] = the candidate of least sum of absolute differences of the channels, at
+/// most 255; all but the first have `margin` added; of equal ones the first. Returns whether any is
+/// not 0. Writes 64 bytes.
+bool chooseColours(const CellColours& cell, uint8_t* choices);
 
 /// Bit i of the words = (a[i] == b[i]); the last word's other bits are 0.
 void packEqual(const uint16_t* a, const uint16_t* b, int count, uint64_t* words);

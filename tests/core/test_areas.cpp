@@ -7,6 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+#include <utility>
+
 namespace rg {
 namespace {
 
@@ -56,6 +59,15 @@ std::shared_ptr<const Labels> divide(const std::shared_ptr<const Foreground>& fo
               ->process(foreground->picture, foreground, params);
 }
 
+/// The labels that meet in a pixel of `part`.
+std::set<std::pair<int, int>> pairsOf(const Labels& part, const Labels& all) {
+  std::set<std::pair<int, int>> pairs;
+  for (int y = 0; y < kSize.height; ++y)
+    for (int x = 0; x < kSize.width; ++x)
+      if (part.ids.at(x, y) != kNoRegion) pairs.emplace(part.ids.at(x, y), all.ids.at(x, y));
+  return pairs;
+}
+
 TEST(ScopeAreas, FindsTheRegionsOfTheWholeFrameInsideTheAreas) {
   for (const int things : {1, 3, 5, 7, 10, 13}) {
     SCOPED_TRACE(std::to_string(things) + " things");
@@ -66,6 +78,8 @@ TEST(ScopeAreas, FindsTheRegionsOfTheWholeFrameInsideTheAreas) {
     // Both halves of a thing; things may overlap.
     EXPECT_GE(match.whole, static_cast<uint32_t>(things));
     EXPECT_EQ(match.same, match.whole);
+    // Regions at the cover's edge end there in both scopes.
+    EXPECT_EQ(pairsOf(*part, *all).size(), part->count);
     for (const int threads : {2, 4})
       EXPECT_TRUE(scenes::areEqual(part->ids, divide(foreground, Scope::Areas, threads)->ids));
   }
@@ -79,7 +93,7 @@ TEST(ScopeAreas, LabelsEveryPixelInAndAroundTheAreasAndNoOther) {
     for (int x = 0; x < kSize.width; ++x) {
       bool isNear = false;
       for (const Box& area : foreground->areas)
-        isNear = isNear || inflate(area, kAreaMargin).contains({x, y});
+        isNear = isNear || coverOf(area, kSize).contains({x, y});
       ASSERT_EQ(labels->ids.at(x, y) != kNoRegion, isNear) << x << ' ' << y;
     }
 }

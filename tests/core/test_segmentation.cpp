@@ -114,6 +114,50 @@ TEST(Segmentation, BordersLieOnTheEdges) {
     }
 }
 
+// Larger regions are grown from cells: their borders are as sharp, wherever they cross the cells.
+TEST(Segmentation, BordersOfCellsLieOnTheEdgesToo) {
+  const Box box{53, 38, 77, 61};
+  const auto isNear = [](int x, int edge) { return std::abs(2 * x + 1 - 2 * edge) <= 3; };
+  for (const int minArea : {20, 64, 256, 1024})
+    for (const int contrast : {30, 100}) {
+      const auto labels = segment(
+          paint({200, 160},
+                [&](int x, int y) {
+                  const int noise =
+                      static_cast<int>(
+                          mixHash(static_cast<uint32_t>(x), static_cast<uint32_t>(y), 1) % 5) -
+                      2;
+                  const auto level =
+                      static_cast<uint8_t>(100 + noise + (box.contains({x, y}) ? contrast : 0));
+                  return Rgb{level, level, level};
+                }),
+          withAreas(minArea));
+      expectSound(*labels);
+      // Large regions are cut, but none lies on both sides.
+      std::vector<int> sides(labels->count + 1, -1);
+      for (int y = 0; y < 160; ++y)
+        for (int x = 0; x < 200; ++x) {
+          const bool isCorner = (isNear(x, box.x) || isNear(x, box.right())) &&
+                                (isNear(y, box.y) || isNear(y, box.bottom()));
+          int& side = sides[labels->ids.at(x, y)];
+          if (isCorner) continue;
+          if (side < 0) side = box.contains({x, y});
+          EXPECT_EQ(side, box.contains({x, y})) << minArea << ": " << x << ' ' << y;
+        }
+    }
+}
+
+TEST(Segmentation, CellsReachTheLargestNumberToo) {
+  for (const int minArea : {64, 256})
+    for (const int maxRegions : {1, 3, 20}) {
+      const auto labels = segment(colourNoise({320, 240}, 5), withAreas(minArea, maxRegions));
+      EXPECT_EQ(labels->count, static_cast<uint32_t>(maxRegions));
+      expectSound(*labels);
+      for (const uint32_t area : areasOf(*labels))
+        EXPECT_TRUE(area == 0 || area >= static_cast<uint32_t>(minArea));
+    }
+}
+
 // The predicate once more, by its words, and a flood instead of runs.
 TEST(Segmentation, GrowingEqualsAFloodOfThePredicate) {
   for (const int similarity : {1, 3, 9, 40}) {

@@ -236,6 +236,42 @@ TEST(SimdCells, RowsAreSummedByTheirWords) {
     }
 }
 
+TEST(SimdCells, RangesAreThoseOfWhatIsInScope) {
+  for (const int count : kWidths)
+    for (int fill = 0; fill < kFills; ++fill) {
+      const Row a(2 * count, fill), b(2 * count, 4, 3);
+      Row scope(2 * count);
+      for (int i = 0; i < 2 * count; ++i)
+        scope.bytes[static_cast<size_t>(i)] = hashOf(i, fill, 7) % 3 == 0 ? kInScope : uint8_t{0};
+      const auto range = [&](int i, bool hasScope) {
+        int least = 255, most = 0;
+        for (const int x : {2 * i, 2 * i + 1})
+          for (const Row* row : {&a, &b}) {
+            if (hasScope && !isInScope(scope[x])) continue;
+            least = std::min(least, int{(*row)[x]});
+            most = std::max(most, int{(*row)[x]});
+          }
+        return std::max(most - least, 3);
+      };
+      for (const bool hasScope : {false, true})
+        expectWrites(
+            count,
+            [&](uint8_t* to) {
+              std::vector<uint8_t> least(static_cast<size_t>(2 * count), 255), most(least.size());
+              for (const Row* row : {&a, &b})
+                if (hasScope)
+                  simd::widenScopedRow(row->bytes.data(), scope.bytes.data(), 2 * count,
+                                       least.data(), most.data());
+                else
+                  simd::widenRow(row->bytes.data(), 2 * count, least.data(), most.data());
+              simd::widenPairs(count, least.data(), most.data());
+              std::fill_n(to, count, uint8_t{3});
+              simd::raiseRanges(least.data(), most.data(), count, to);
+            },
+            [&](int i) { return range(i, hasScope); });
+    }
+}
+
 // All sums that cells can have: up to 64 pixels of up to 255.
 TEST(SimdCells, MeansAreRoundedQuotients) {
   for (int pixels = 0; pixels <= 64; ++pixels) {
@@ -273,29 +309,43 @@ TEST(SimdCells, PairsCountsAndEqualsAreThePlainOnes) {
 }
 
 TEST(SimdCells, PixelsGoToTheNearestColour) {
-  simd::NearestColours cell;
-  cell.pixels = simd::kMostPixels;
-  cell.count = 5;
-  cell.margin = 6;
-  for (int c = 0; c < 3; ++c) {
-    for (int i = 0; i < cell.pixels; ++i)
-      cell.colours[c][i] = static_cast<uint8_t>(hashOf(i, c, 3) & 255);
-    for (int k = 0; k < cell.count; ++k)
-      cell.candidates[c][k] = static_cast<uint8_t>(hashOf(k, c, 4) & 255);
-  }
-  std::vector<uint16_t> before(simd::kMostPixels + 8, 7), right = before;
-  for (int k = 0; k < cell.count; ++k) cell.ids[k] = static_cast<uint16_t>(100 + k);
-  for (int i = 0; i < cell.pixels; ++i) {
-    int least = 10000;
-    for (int k = 0; k < cell.count; ++k) {
-      int distance = k == 0 ? 0 : cell.margin;
-      for (int c = 0; c < 3; ++c) distance += absDiff(cell.colours[c][i], cell.candidates[c][k]);
-      if (distance >= least) continue;
-      least = distance;
-      right[static_cast<size_t>(i)] = cell.ids[k];
+  for (const int side : {2, 4, 8})
+    for (int fill = 0; fill < kFills; ++fill) {
+      const Image<uint8_t> planes[] = {filled({16, 9}, fill), filled({16, 9}, 4),
+                                       filled({16, 9}, 3)};
+      simd::CellColours cell;
+      cell.side = side;
+      cell.rows = side == 2 ? 1 : side;
+      cell.count = 5;
+      cell.margin = 6;
+      for (int c = 0; c < 3; ++c) {
+        cell.pixels[c] = planes[c].row(1) + 3;
+        cell.strides[c] = planes[c].view().strideBytes;
+        for (int k = 0; k < cell.count; ++k)
+          cell.candidates[k][c] = static_cast<uint8_t>(hashOf(k, c, 4) & 255);
+      }
+      std::vector<int> right;
+      for (int i = 0; i < cell.rows * side; ++i) {
+        int best = 0, least = 256;
+        for (int k = 0; k < cell.count; ++k) {
+          int distance = k == 0 ? 0 : cell.margin;
+          for (int c = 0; c < 3; ++c)
+            distance += absDiff(planes[c].at(3 + i % side, 1 + i / side), cell.candidates[k][c]);
+          distance = std::min(distance, 255);
+          if (distance < least) best = k;
+          least = std::min(distance, least);
+        }
+        right.push_back(best);
+      }
+      test::forEachTarget([&] {
+        std::vector<uint8_t> choices(64 + 8, kGuard);
+        const bool any = simd::chooseColours(cell, choices.data());
+        EXPECT_EQ(std::vector<int>(choices.begin(), choices.begin() + cell.rows * side), right);
+        const bool expected = std::any_of(right.begin(), right.end(), [](int k) { return k != 0; });
+        EXPECT_EQ(any, cell.rows == side ? expected : any);
+        EXPECT_EQ(std::count(choices.end() - 8, choices.end(), kGuard), 8);
+      });
     }
-  }
-  expectWords(before, right, [&](uint16_t* to) { simd::chooseColours(cell, to); });
 }
 
 /// All that the four stages say of two frames, as numbers.
