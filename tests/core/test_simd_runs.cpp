@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 namespace rg {
@@ -23,11 +24,14 @@ uint32_t hashOf(int x, int what) {
 /// `count` bytes and no more: reading beyond them is seen by the address sanitizer.
 std::vector<uint8_t> bytesOf(int count, int fill, int row) {
   std::vector<uint8_t> bytes(static_cast<size_t>(count));
-  for (int x = 0; x < count; ++x)
-    bytes[static_cast<size_t>(x)] = static_cast<uint8_t>(fill == 0   ? 255
-                                                         : fill == 1 ? (x + row) % 2 * 255
-                                                         : fill == 2 ? row % 2 * 255
-                                                                     : hashOf(x, row));
+  for (int x = 0; x < count; ++x) {
+    const auto level = [&]() -> uint32_t {
+      if (fill == 0) return 255;
+      if (fill == 1) return (x + row) % 2 == 0 ? 0 : 255;
+      return fill == 2 ? (row % 2 == 0 ? 0 : 255) : hashOf(x, row);
+    };
+    bytes[static_cast<size_t>(x)] = static_cast<uint8_t>(level());
+  }
   return bytes;
 }
 
@@ -129,7 +133,8 @@ TEST(SimdMotion, RowsAreSmoothedByTheirNeighbours) {
 TEST(SimdMotion, RowsAreWarpedBetweenFourPixels) {
   for (int count = 1; count <= kMostColumns; count += count < 70 ? 1 : 37)
     for (int fill = 0; fill < kFills; ++fill)
-      for (const auto& [right, low] : {std::pair{0, 0}, {15, 1}, {8, 8}, {3, 15}, {0, 9}}) {
+      for (const auto& weights : {std::pair{0, 0}, {15, 1}, {8, 8}, {3, 15}, {0, 9}}) {
+        const int right = weights.first, low = weights.second;
         const auto upper = bytesOf(count + 1, fill, 0), lower = bytesOf(count + 1, fill, 1);
         test::forEachTarget([&] {
           std::vector<uint8_t> to(static_cast<size_t>(count) + 1, 0xA5);
