@@ -89,6 +89,7 @@ void Tracker::reset(bool isNewScene) {
     if (track.isConfirmed) ended_.push_back(track.id);
   tracks_.clear();
   encounters_.clear();
+  owner_.clear();
   if (!isNewScene) return;
   scale_.reset({});
   clutter_.reset();
