@@ -68,6 +68,9 @@ void forSamples(const Evidence& e, const RegionRun& run, const Visit& visit) {
   }
 }
 
+constexpr int kLeastApart =
+    6;  // Sixteenths of a pixel per frame: parts of one thing differ by less.
+
 /// Raster neighbours that come before a cell, and the one to its right on the row above.
 constexpr Point kEarlier[] = {{-1, 0}, {-1, -1}, {0, -1}, {1, -1}};
 
@@ -101,6 +104,16 @@ void gather(const Graph& graph, std::span<const uint32_t> groupOf,
   e.listRuns();
 }
 
+bool areApart(const Evidence& e, uint16_t a, uint16_t b) {
+  if (!e.showsMovers || a == b || a == 0 || b == 0) return false;
+  const uint32_t p = e.cellsOf[a - 1u], q = e.cellsOf[b - 1u];
+  if (e.motionOf.empty()) return false;
+  const Point v = e.motionOf[a - 1u], w = e.motionOf[b - 1u];
+  const int dx = v.x - w.x, dy = v.y - w.y;
+  if (dx * dx + dy * dy < kLeastApart * kLeastApart) return false;
+  return 3 * std::min(p, q) >= std::max(p, q);
+}
+
 void Evidence::listRuns() {
   runs.clear();
   std::vector<uint16_t>& begins = runBegins;
@@ -123,7 +136,7 @@ void findPieces(const Evidence& e, std::span<const uint16_t> owner, PieceScratch
     for (const Point& d : kEarlier) {
       if (x + d.x < 0 || x + d.x >= e.grid.width || y + d.y < 0) continue;
       const uint32_t other = s.label[e.at(x + d.x, y + d.y)];
-      if (other == 0) continue;
+      if (other == 0 || areApart(e, e.group[cell], e.group[e.at(x + d.x, y + d.y)])) continue;
       if (label != 0) join(s.parent, label, other);
       label = label == 0 ? other : std::min(label, other);
     }
@@ -145,6 +158,10 @@ void findPieces(const Evidence& e, std::span<const uint16_t> owner, PieceScratch
     Piece& piece = pieces[label - 1];
     ++piece.cells;
     piece.box = unite(piece.box, {x, y, 1, 1});
+    if (!e.showsMovers) return;
+    const uint16_t group = e.group[cell];
+    if (piece.group == 0 || e.cellsOf[group - 1u] > e.cellsOf[piece.group - 1u])
+      piece.group = group;
   });
 }
 

@@ -25,11 +25,14 @@ struct Evidence {
   std::vector<uint16_t> expected;  ///< Of each cell: 1 + the track that its region is predicted to
                                    ///< be, 0 = none; where group is not 0.
   std::vector<uint32_t> cellsOf;   ///< Cells of each group.
+  std::vector<Point> motionOf;     ///< Motion of each group, in 1/16 px; may be empty.
   std::vector<RegionRun> runs;  ///< Of the cells that are no background, of one group each. Row by
                                 ///< row: what walks them costs nothing where nothing is.
   std::vector<uint16_t> runBegins;  ///< Scratch.
   Point camera;                     ///< Its motion since the previous frame, in 1/16 px.
-  bool showsMovers = false;         ///< What stands still is background, whatever it is.
+  /// What stands still is background, whatever it is, and groups are things: two that touch are
+  /// told apart by their motion.
+  bool showsMovers = false;
 
   /// The pixel that cell (x, y) shows.
   [[nodiscard]] Point middleOf(int x, int y) const {
@@ -58,8 +61,13 @@ void gather(const Graph& graph, std::span<const uint32_t> groupOf,
 /// An 8-connected set of cells that belong to no track.
 struct Piece {
   uint32_t cells = 0;
-  Box box;  ///< In cells.
+  Box box;             ///< In cells.
+  uint16_t group = 0;  ///< The largest that it has cells of, as in Evidence.
 };
+
+/// Whether two groups are two things: where movers are shown and they move differently, unless one
+/// is a bit of the other.
+[[nodiscard]] bool areApart(const Evidence& evidence, uint16_t a, uint16_t b);
 
 struct PieceScratch {
   std::vector<uint32_t> parent;
@@ -68,8 +76,8 @@ struct PieceScratch {
   std::vector<Piece> cut;
 };
 
-/// The parts of the foreground whose owner is 0. owner: for each cell 1 + track or 0; empty: nobody
-/// owns anything.
+/// The parts of the foreground whose owner is 0; groups that are apart are not of one part. owner:
+/// for each cell 1 + track or 0; empty: nobody owns anything.
 void findPieces(const Evidence& evidence, std::span<const uint16_t> owner, PieceScratch& scratch,
                 std::vector<Piece>& pieces);
 

@@ -323,6 +323,9 @@ Result<std::shared_ptr<const Objects>> CpuObjectStage::process(std::shared_ptr<c
   gather(*graph, objects->regionGroup, isBackground_, expected_, evidence_);
   evidence_.camera = {objects->cameraDx, objects->cameraDy};
   evidence_.showsMovers = graph->labels->scope == Scope::Frame;
+  evidence_.motionOf.clear();
+  if (evidence_.showsMovers)
+    for (const Group& group : groups_) evidence_.motionOf.push_back({group.dx, group.dy});
   tracker_.update(evidence_, groups_, stepNs, tracking);
   paint(*graph, *objects);
   describe(*graph, time.isKnown, *objects);

@@ -167,7 +167,7 @@ void Tracker::update(const Evidence& evidence, std::span<const Group> groups, in
   rejoin(evidence);
   for (size_t i = 0; i < sightings_.size(); ++i) learnSize(i, stepNs, evidence);
   learnScale(evidence);
-  joinDoubles(stepNs);
+  joinDoubles(evidence, stepNs);
   judgeIdentities();
   findCompany(stepNs);
   tellCompany();

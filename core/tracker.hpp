@@ -102,6 +102,7 @@ struct Place {
 struct Newcomer {
   Box box;  ///< In pixels.
   uint32_t cells = 0;
+  uint16_t group = 0;   ///< Of its largest piece.
   uint64_t parent = 0;  ///< Id of the track whose blob it comes out of, 0 = none.
   bool isAtBorder = false;
   bool isPart = false;  ///< Of a track that is missing.
@@ -194,8 +195,8 @@ class Tracker {
   void fitSizeToScene(Track& track) const;
   void learnScale(const Evidence& evidence);
   [[nodiscard]] bool outgrows(const Track& track, const Box& box) const;
-  [[nodiscard]] bool areOneBody(size_t a, size_t b) const;
-  void joinDoubles(int64_t stepNs);
+  [[nodiscard]] bool areOneBody(const Evidence& evidence, size_t a, size_t b) const;
+  void joinDoubles(const Evidence& evidence, int64_t stepNs);
   void findCompany(int64_t stepNs);
   void tellCompany();
   void tellNew(const Track& track);

@@ -72,6 +72,10 @@ void Tracker::giveBlobs(const Evidence& e) {
     const uint32_t main = blobOf_[owner - 1u];
     if (main == blob) return;
     const Box &mine = blobs_[main - 1].box, &other = blobs_[blob - 1].box;
+    if (areApart(e, blobs_[main - 1].group, blobs_[blob - 1].group)) {
+      owner_[cell] = 0;
+      return;
+    }
     if (!standBeside(mine, other)) return;
     sightings_[owner - 1u].isParted = true;
     const Track& track = tracks_[owner - 1u];

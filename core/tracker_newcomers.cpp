@@ -57,9 +57,12 @@ void Tracker::findNewcomers(const Evidence& e, const TrackerParams& params) {
     Newcomer piece;
     piece.box = toPixels(pieces_[i].box, e.stepPx, e.frame);
     piece.cells = pieces_[i].cells;
+    piece.group = pieces_[i].group;
     int host = -1;
     for (size_t n = 0; n < newcomers_.size() && host < 0; ++n)
-      if (belongTogether(newcomers_[n].box, piece.box, scale_)) host = static_cast<int>(n);
+      if (belongTogether(newcomers_[n].box, piece.box, scale_) &&
+          !areApart(e, newcomers_[n].group, piece.group))
+        host = static_cast<int>(n);
     if (host < 0) {
       host = static_cast<int>(newcomers_.size());
       newcomers_.push_back(piece);
@@ -88,6 +91,7 @@ void Tracker::giveFragments(const Evidence& e) {
       const Piece& blob = blobs_[blobOf_[t] - 1];
       const Box box = toPixels(blob.box, e.stepPx, e.frame);
       if (2 * newcomer.cells > blob.cells || !belongTogether(box, newcomer.box, scale_)) continue;
+      if (areApart(e, blob.group, newcomer.group)) continue;
       sightings_[t].box = unite(sightings_[t].box, newcomer.box);
       trackOfNewcomer_[n] = static_cast<int>(t);
       newcomer.cells = 0;

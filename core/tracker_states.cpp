@@ -108,10 +108,13 @@ bool Tracker::outgrows(const Track& track, const Box& box) const {
 
 /// Whether two tracks seem to be one body: they lie above each other as its halves do, or together
 /// show no more than one of them should.
-bool Tracker::areOneBody(size_t a, size_t b) const {
+bool Tracker::areOneBody(const Evidence& e, size_t a, size_t b) const {
   const Track &p = tracks_[a], &q = tracks_[b];
   const Box first = p.box(), second = q.box(), both = unite(first, second);
   const int columns = std::min(first.right(), second.right()) - std::max(first.x, second.x);
+  if (blobOf_[a] != 0 && blobOf_[b] != 0 &&
+      areApart(e, blobs_[blobOf_[a] - 1].group, blobs_[blobOf_[b] - 1].group))
+    return false;
   if (outgrows(p, both) || outgrows(q, both)) return false;
   if (!scale_.isUniform() && blobOf_[a] != 0 && blobOf_[a] == blobOf_[b] &&
       std::min(p.apartNs, q.apartNs) < kDoubleNs)
@@ -131,13 +134,13 @@ bool Tracker::areOneBody(size_t a, size_t b) const {
 }
 
 /// Ends tracks that were one body with an older one for a while.
-void Tracker::joinDoubles(int64_t stepNs) {
+void Tracker::joinDoubles(const Evidence& e, int64_t stepNs) {
   for (size_t b = 0; b < sightings_.size(); ++b) {
     Track& track = tracks_[b];
     if (!track.isSeen) continue;
     size_t partner = b;
     for (size_t a = 0; a < b && partner == b; ++a)
-      if (tracks_[a].isSeen && !tracks_[a].isOver && areOneBody(a, b)) partner = a;
+      if (tracks_[a].isSeen && !tracks_[a].isOver && areOneBody(e, a, b)) partner = a;
     if (partner == b) {
       track.doubleNs = 0;
       continue;

@@ -85,6 +85,27 @@ TEST(Evidence, ABodyIsNotCutFromItsLegsAndArms) {
   EXPECT_EQ(cutRows(body), labels);
 }
 
+TEST(Evidence, MoversThatTouchAreApartByTheirMotion) {
+  Evidence e = drawn({"####", "####"});
+  for (size_t cell = 0; cell < e.group.size(); ++cell) e.group[cell] = cell % 4 < 2 ? 1 : 2;
+  e.cellsOf = {4, 4};
+  e.motionOf = {{20, 0}, {30, 0}};
+  const auto count = [&] {
+    PieceScratch scratch;
+    std::vector<Piece> pieces;
+    findPieces(e, {}, scratch, pieces);
+    return pieces.size();
+  };
+  EXPECT_EQ(count(), 1u);
+  e.showsMovers = true;
+  EXPECT_EQ(count(), 2u);
+  e.motionOf[1] = {22, 0};  // Parts of one thing.
+  EXPECT_EQ(count(), 1u);
+  e.motionOf[1] = {30, 0};
+  e.cellsOf = {4, 40};  // A bit of the other.
+  EXPECT_EQ(count(), 1u);
+}
+
 TEST(Evidence, CellsSampleTheGroupsThatAreNoBackground) {
   auto labels = std::make_shared<Labels>();
   labels->size = {640, 480};
