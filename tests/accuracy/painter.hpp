@@ -38,6 +38,8 @@ class Painter {
   /// Paints the next frame; false when the plan is over.
   bool next(bench::RawFrame& frame, Scene& scene);
   [[nodiscard]] const Plan& plan() const { return plan_; }
+  /// Of each pixel of the last frame the actor that is seen, −1 = the ground.
+  [[nodiscard]] const std::vector<int>& top() const { return top_; }
 
  private:
   void paintGround(const Canvas& canvas, const Waypoint& view, const Box& box);
@@ -49,7 +51,7 @@ class Painter {
   uint32_t seed_;
   int frame_ = 0;
   std::vector<Rgb> pixels_;
-  std::vector<int> top_;  ///< Of each pixel the actor that is seen, −1 = the ground.
+  std::vector<int> top_;
   std::vector<float> noise_;
 };
 
