@@ -24,13 +24,25 @@ inline constexpr uint8_t kForegroundPixel = 255;
 
 enum class SceneEvent : uint8_t {
   None,
-  LightSwitched,  ///< Most of the picture changed its brightness at once.
-  Changed,        ///< Most of the picture changed otherwise: the camera moved or was covered.
+  LightSwitched,   ///< Most of the picture changed its brightness at once.
+  ColourSwitched,  ///< It lost its colour, or got some: day and night view. The model starts anew.
+  CameraMoved,     ///< Another scene for good, also where the camera was covered: the same.
+  CameraShaken,    ///< The camera was pushed by a few pixels; told once a second at most.
+  TooDark,         ///< Nothing can be seen: no foreground, nothing is learnt, until it is
+  BrightAgain,     ///< bright again.
 };
+
+/// Does the picture look otherwise from this frame on?
+[[nodiscard]] constexpr bool isAnotherView(SceneEvent event) {
+  return event == SceneEvent::LightSwitched || event == SceneEvent::ColourSwitched ||
+         event == SceneEvent::CameraMoved;
+}
 
 struct Scene {
   SceneEvent event = SceneEvent::None;  ///< What happened in this very frame.
   uint32_t foregroundPx = 0;
+  bool isDark = false;  ///< Since TooDark, until BrightAgain.
+  Point shift;          ///< By how much the camera looks off the model in this frame, in pixels.
 };
 
 /// What bgremove says of one frame. Immutable once published.

@@ -152,7 +152,7 @@ SceneEvent FrameDifferenceBackground::compareScene(const ColourPlanes& now) {
   const uint64_t changed = brighter + darker;
   if (changed * 256 <= known * kOtherScene) return SceneEvent::None;
   return std::max(brighter, darker) * 256 >= changed * kOneDirection ? SceneEvent::LightSwitched
-                                                                     : SceneEvent::Changed;
+                                                                     : SceneEvent::CameraMoved;
 }
 
 void FrameDifferenceBackground::seed() {

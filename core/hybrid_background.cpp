@@ -8,10 +8,13 @@
 #include "core/mask_contour.hpp"
 #include "core/mask_gaps.hpp"
 #include "core/moved_things.hpp"
+#include "core/scene_watch.hpp"
 #include "core/shadow.hpp"
 #include "core/still_parts.hpp"
 
 #include <algorithm>
+#include <cstring>
+#include <utility>
 
 namespace rg {
 namespace {
@@ -21,8 +24,15 @@ constexpr int kBrightness = 20;     ///< Of 256: share of the brightness that is
 constexpr int kMajority = 115;      ///< Of 256: share of foreground that keeps a pixel.
 constexpr int kMostGapStep = 14;    ///< Grey levels across a border that is no edge.
 
+constexpr uint32_t kOddShare = 16;          ///< Of 256: foreground that makes us look at the scene.
 constexpr uint32_t kLightShare = 102;       ///< Of 256: foreground that asks for a reason.
 constexpr uint32_t kOtherSceneShare = 192;  ///< Of 256: foreground that no object covers.
+
+constexpr int kDarkLevel = 12, kBrightLevel = 18;  ///< Grey levels: from where, and until where.
+
+constexpr bool startsAnew(SceneEvent event) {
+  return event == SceneEvent::ColourSwitched || event == SceneEvent::CameraMoved;
+}
 
 class HybridBackground final : public BackgroundMethodModel {
  public:
@@ -35,7 +45,11 @@ class HybridBackground final : public BackgroundMethodModel {
     return frame_ < static_cast<uint32_t>(job.params.trainingFrames);
   }
   void start(const BackgroundJob& job, Foreground& out);
+  bool isTooDark(Foreground& out);
+  void watch(const BackgroundJob& job, Foreground& out);
+  SceneEvent followCamera(const BackgroundJob& job);
   SceneEvent followLight(const BackgroundJob& job);
+  bool isElsewhere(const BackgroundJob& job);
   void clean(const BackgroundJob& job);
   void refine(const BackgroundJob& job);
   void findShadow(const BackgroundJob& job);
@@ -60,6 +74,12 @@ class HybridBackground final : public BackgroundMethodModel {
   BitMask dark_, shadow_;
   CastShadowScratch shadowScratch_;
   uint32_t frame_ = 0;
+  bool isDark_ = false;
+  Point shift_;                   ///< The camera's, from the model.
+  SmoothPicture spare_;           ///< For shifting.
+  uint32_t calmFrames_ = 0;       ///< Since the camera was off its place.
+  uint32_t offFrames_ = 0;        ///< It has been off by the same shift.
+  uint32_t elsewhereFrames_ = 0;  ///< The picture has differed everywhere.
 };
 
 void HybridBackground::prepare(const Picture& picture) {
@@ -78,6 +98,8 @@ void HybridBackground::start(const BackgroundJob& job, Foreground& out) {
   previousRaw_.clear();
   clear(still_);
   frame_ = 0;
+  shift_ = {};
+  offFrames_ = elsewhereFrames_ = 0;
   out.status = Status::Training;
   out.mask.fill(kBackgroundPixel);
 }
@@ -87,7 +109,63 @@ Tolerance toleranceOf(const BackgroundParams& params) {
                               : Tolerance{kUsualThreshold, kBrightness};
 }
 
-/// Most of the picture is foreground: is it the known scene in another light, or another scene?
+/// In the dark there is nothing to be told from noise, and nothing to be learnt.
+bool HybridBackground::isTooDark(Foreground& out) {
+  const bool wasDark = isDark_;
+  isDark_ = isDarkerThan(smooth_, wasDark ? kBrightLevel : kDarkLevel);
+  if (isDark_ != wasDark) out.scene.event = isDark_ ? SceneEvent::TooDark : SceneEvent::BrightAgain;
+  out.scene.isDark = isDark_;
+  if (!isDark_) return false;
+  if (model_.channels == 0) out.status = Status::Training;
+  out.mask.fill(kBackgroundPixel);
+  return true;
+}
+
+/// A camera that was pushed sees what the model knows beside its place. The picture is put there.
+SceneEvent HybridBackground::followCamera(const BackgroundJob& job) {
+  const Point before = std::exchange(shift_, findShift(smooth_, model_));
+  if (shift_ == Point{}) {
+    offFrames_ = 0;
+    ++calmFrames_;
+    return SceneEvent::None;
+  }
+  shiftPicture(shift_, job.executor, spare_, smooth_);
+  judge(smooth_, model_, toleranceOf(job.params), job.executor, verdicts_);
+  offFrames_ = shift_ == before ? offFrames_ + 1 : 0;
+  if (offFrames_ >= job.clock.frames(5.0)) return SceneEvent::CameraMoved;
+  const bool isNews = std::exchange(calmFrames_, 0) >= job.clock.frames(1.0);
+  return isNews ? SceneEvent::CameraShaken : SceneEvent::None;
+}
+
+/// No light explains it, no object covers it, and it stays.
+bool HybridBackground::isElsewhere(const BackgroundJob& job) {
+  elsewhereFrames_ = isEverywhere(verdicts_.raw) ? elsewhereFrames_ + 1 : 0;
+  return elsewhereFrames_ >= job.clock.frames(0.3);
+}
+
+/// Much differs from the model: why?
+void HybridBackground::watch(const BackgroundJob& job, Foreground& out) {
+  const auto pixels = static_cast<uint64_t>(smooth_.size().area());
+  SceneEvent& event = out.scene.event;
+  if (uint64_t{countSet(verdicts_.raw)} * 256 < pixels * kOddShare) {
+    shift_ = {};
+    offFrames_ = elsewhereFrames_ = 0;
+    ++calmFrames_;
+    return;
+  }
+  if (hasSwitchedColour(smooth_, model_)) {
+    event = SceneEvent::ColourSwitched;
+    return;
+  }
+  const SceneEvent pushed = followCamera(job), lit = followLight(job);
+  out.scene.shift = shift_;
+  if (pushed != SceneEvent::None) event = pushed;
+  if (lit != SceneEvent::None) event = lit;
+  if (isElsewhere(job)) event = SceneEvent::CameraMoved;
+}
+
+/// Most of the picture is foreground: is it the known scene in
+/// another light, or another scene?
 SceneEvent HybridBackground::followLight(const BackgroundJob& job) {
   const auto pixels = static_cast<uint64_t>(smooth_.size().area());
   const uint64_t before = countSet(verdicts_.raw);
@@ -101,20 +179,21 @@ SceneEvent HybridBackground::followLight(const BackgroundJob& job) {
     judge(smooth_, model_, tolerance, job.executor, verdicts_);
     return SceneEvent::LightSwitched;
   }
-  return before * 256 < pixels * kOtherSceneShare ? SceneEvent::None : SceneEvent::Changed;
+  return before * 256 < pixels * kOtherSceneShare ? SceneEvent::None : SceneEvent::CameraMoved;
 }
 
 uint32_t leastStrongPx(uint32_t pixels) {
   return std::max(4u, pixels / 10000);
 }
 
-/// Not at the start: what is left of those who were in view must not stick to those who are, and
-/// is told from them by its contour.
+/// Not at the start: what is left of those who were in view must not
+/// stick to those who are, and is told from them by its contour.
 void HybridBackground::refine(const BackgroundJob& job) {
   const auto pixels = static_cast<uint32_t>(mask_.size().area());
   growFaint({smooth_, model_, verdicts_.faint, shown_}, job.executor, scratch_, contour_, mask_);
   keepSupported(mask_, verdicts_.strong, leastStrongPx(pixels), scratch_);
   fillHoles(mask_, pixels / 50, scratch_);
+  if (shift_ != Point{}) return;  // The picture as it came is elsewhere.
   trimBorder(*job.picture, smooth_, model_, toleranceOf(job.params), job.executor, contour_, mask_);
 }
 
@@ -169,11 +248,23 @@ void HybridBackground::learnFrame(const BackgroundJob& job) {
 }
 
 void HybridBackground::publish(const BackgroundJob& job, ImageView<uint8_t> out) const {
-  job.executor.forRows(out.height(), [&](int first, int last) {
+  const int width = out.width(), height = out.height();
+  // Where the camera looks off the model, the mask goes back to the
+  // picture.
+  const int from = std::max(0, shift_.x), to = std::max(0, -shift_.x);
+  const int count = std::max(0, width - std::abs(shift_.x));
+  job.executor.forRows(height, [&](int first, int last) {
     for (int y = first; y < last; ++y) {
-      std::fill_n(out.row(y), out.width(), kBackgroundPixel);
-      paintRow(mask_, y, kForegroundPixel, out.row(y));
-      paintRow(shadow_, y, kShadowPixel, out.row(y));
+      std::fill_n(out.row(y), width, kBackgroundPixel);
+      const int row = y + shift_.y;
+      if (row < 0 || row >= height) continue;
+      paintRow(mask_, row, kForegroundPixel, out.row(y));
+      paintRow(shadow_, row, kShadowPixel, out.row(y));
+      if (from != to) {
+        std::memmove(out.row(y) + to, out.row(y) + from, static_cast<size_t>(count));
+        std::fill(out.row(y), out.row(y) + to, kBackgroundPixel);
+        std::fill(out.row(y) + to + count, out.row(y) + width, kBackgroundPixel);
+      }
     }
   });
 }
@@ -182,12 +273,17 @@ void HybridBackground::segment(const BackgroundJob& job, Foreground& out) {
   out.extent = boundsOf(job.picture->size());
   if (model_.channels == 0) {
     smooth(*job.picture, job.executor, smooth_);
-    return start(job, out);
+    if (!isTooDark(out)) start(job, out);
+    return;
   }
   ++frame_;
   smoothAndJudge(*job.picture, model_, toleranceOf(job.params), job.executor, {smooth_, verdicts_});
-  out.scene.event = followLight(job);
-  if (out.scene.event == SceneEvent::Changed) return start(job, out);
+  const auto pixels = static_cast<uint64_t>(smooth_.size().area());
+  if ((isDark_ || uint64_t{countSet(verdicts_.raw)} * 256 >= pixels * kLightShare) &&
+      isTooDark(out))
+    return;
+  watch(job, out);
+  if (startsAnew(out.scene.event)) return start(job, out);
   clean(job);
   dissolveGhosts(job);
   learnFrame(job);

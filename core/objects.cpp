@@ -332,7 +332,7 @@ Result<std::shared_ptr<const Objects>> CpuObjectStage::process(std::shared_ptr<c
   nameRegions(*graph, *objects);
   objects->events = tracker_.events();
   const Foreground* foreground = graph->labels->foreground.get();
-  if (foreground && foreground->scene.event != SceneEvent::None)
+  if (foreground && isAnotherView(foreground->scene.event))
     objects->events.push_back({EventKind::SceneChanged, {}});
   return std::shared_ptr<const Objects>(objects);
 }

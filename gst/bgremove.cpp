@@ -15,6 +15,7 @@
 #include "gst/elements.hpp"
 #include "gst/support/interest_mask.hpp"
 #include "gst/support/pixel_filter.hpp"
+#include "gst/support/timed_message.hpp"
 
 #include <array>
 
@@ -113,6 +114,26 @@ constexpr std::array kProperties{
     badBuffersProperty<Settings>(),
 };
 
+/// Null where nothing is told.
+const char* messageOf(SceneEvent event) {
+  switch (event) {
+    case SceneEvent::None:
+      break;
+    case SceneEvent::LightSwitched:
+      return "regiongraph-light-switched";
+    case SceneEvent::ColourSwitched:
+      return "regiongraph-night-switched";
+    case SceneEvent::CameraMoved:
+      return "regiongraph-camera-moved";
+    case SceneEvent::CameraShaken:
+      return "regiongraph-camera-shaken";
+    case SceneEvent::TooDark:
+    case SceneEvent::BrightAgain:
+      return "regiongraph-too-dark";
+  }
+  return nullptr;
+}
+
 class BgRemove final : public PixelFilter<Settings, BackgroundStage> {
  public:
   explicit BgRemove(GstBaseTransform* element) : PixelFilter(element, makeBackgroundStage) {}
@@ -135,7 +156,9 @@ class BgRemove final : public PixelFilter<Settings, BackgroundStage> {
     if (!frame.isUsable) {
       attachSkipped<Foreground>(frame);
     } else if (auto picture = load(frame)) {
-      attach<Foreground>(frame, stage().process(*std::move(picture), settings, frame.time));
+      auto result = stage().process(*std::move(picture), settings, frame.time);
+      if (result) tell((*result)->scene, GST_BUFFER_PTS(frame.buffer));
+      attach<Foreground>(frame, std::move(result));
     } else {
       attach<Foreground>(frame, picture.error());
     }
@@ -143,6 +166,16 @@ class BgRemove final : public PixelFilter<Settings, BackgroundStage> {
   }
 
  private:
+  void tell(const Scene& scene, GstClockTime pts) {
+    const char* name = messageOf(scene.event);
+    if (!name) return;
+    GST_DEBUG_OBJECT(element(), "%s", name);
+    GstStructure* fields = gst_structure_new_empty(name);
+    if (scene.event == SceneEvent::TooDark || scene.event == SceneEvent::BrightAgain)
+      gst_structure_set(fields, "dark", G_TYPE_BOOLEAN, scene.isDark, nullptr);
+    postTimedMessage(element(), pts, fields);
+  }
+
   InterestMask interest_;
 };
 

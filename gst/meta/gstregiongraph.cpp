@@ -100,6 +100,15 @@ GstRegionStatus gst_region_foreground_meta_get_status(GstRegionForegroundMeta* m
   return statusAndSize(resultOf<rg::Foreground>(meta), width, height);
 }
 
+GstRegionSceneEvent gst_region_foreground_meta_get_scene_event(GstRegionForegroundMeta* meta,
+                                                               gint* shift_x, gint* shift_y) {
+  g_return_val_if_fail(meta, GST_REGION_SCENE_EVENT_NONE);
+  const rg::Scene& scene = resultOf<rg::Foreground>(meta).scene;
+  if (shift_x) *shift_x = scene.shift.x;
+  if (shift_y) *shift_y = scene.shift.y;
+  return static_cast<GstRegionSceneEvent>(scene.event);  // In the same order.
+}
+
 guint gst_region_foreground_meta_get_n_areas(GstRegionForegroundMeta* meta) {
   g_return_val_if_fail(meta, 0);
   return static_cast<guint>(resultOf<rg::Foreground>(meta).areas.size());

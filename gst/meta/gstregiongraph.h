@@ -77,6 +77,16 @@ GST_REGION_API GstRegionObjectsMeta* gst_buffer_get_region_objects_meta(GstBuffe
 GST_REGION_API GstRegionStatus gst_region_foreground_meta_get_status(GstRegionForegroundMeta* meta,
                                                                      gint* width, gint* height);
 /**
+ * gst_region_foreground_meta_get_scene_event:
+ * @meta: a foreground meta
+ * @shift_x: (out) (optional): how many pixels the camera looks off to the right of its place
+ * @shift_y: (out) (optional): the same downwards
+ *
+ * Returns: what happened to the scene as a whole in this very frame
+ */
+GST_REGION_API GstRegionSceneEvent gst_region_foreground_meta_get_scene_event(
+    GstRegionForegroundMeta* meta, gint* shift_x, gint* shift_y);
+/**
  * gst_region_foreground_meta_get_n_areas:
  * @meta: a foreground meta
  *

@@ -20,6 +20,26 @@ typedef enum {
 } GstRegionStatus;
 
 /**
+ * GstRegionSceneEvent:
+ * @GST_REGION_SCENE_EVENT_NONE: nothing but what moves
+ * @GST_REGION_SCENE_EVENT_LIGHT_SWITCHED: most of the picture changed its brightness at once
+ * @GST_REGION_SCENE_EVENT_NIGHT_SWITCHED: the picture lost its colour, or got some
+ * @GST_REGION_SCENE_EVENT_CAMERA_MOVED: another scene for good, also where the camera was covered
+ * @GST_REGION_SCENE_EVENT_CAMERA_SHAKEN: the camera was pushed by a few pixels
+ * @GST_REGION_SCENE_EVENT_TOO_DARK: from here on nothing can be seen
+ * @GST_REGION_SCENE_EVENT_BRIGHT_AGAIN: the end of that
+ */
+typedef enum {
+  GST_REGION_SCENE_EVENT_NONE,
+  GST_REGION_SCENE_EVENT_LIGHT_SWITCHED,
+  GST_REGION_SCENE_EVENT_NIGHT_SWITCHED,
+  GST_REGION_SCENE_EVENT_CAMERA_MOVED,
+  GST_REGION_SCENE_EVENT_CAMERA_SHAKEN,
+  GST_REGION_SCENE_EVENT_TOO_DARK,
+  GST_REGION_SCENE_EVENT_BRIGHT_AGAIN
+} GstRegionSceneEvent;
+
+/**
  * GstRegionScope:
  * @GST_REGION_SCOPE_FRAME: every pixel has a region
  * @GST_REGION_SCOPE_FOREGROUND: only foreground pixels have one, the rest has label 0

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "gst/support/object_messages.hpp"
 
+#include "gst/support/timed_message.hpp"
+
 #include <algorithm>
 #include <cstdlib>
 
@@ -46,16 +48,7 @@ void ObjectMessages::endAll() {
 
 void ObjectMessages::post(const char* name, GstStructure* fields) const {
   GST_DEBUG_OBJECT(element_, "%s", name);
-  const GstSegment* segment = &element_->segment;
-  const bool hasTimes = segment->format == GST_FORMAT_TIME && GST_CLOCK_TIME_IS_VALID(pts_);
-  const guint64 streamTime =
-      hasTimes ? gst_segment_to_stream_time(segment, GST_FORMAT_TIME, pts_) : GST_CLOCK_TIME_NONE;
-  const guint64 runningTime =
-      hasTimes ? gst_segment_to_running_time(segment, GST_FORMAT_TIME, pts_) : GST_CLOCK_TIME_NONE;
-  gst_structure_set(fields, "pts", G_TYPE_UINT64, static_cast<guint64>(pts_), "stream-time",
-                    G_TYPE_UINT64, streamTime, "running-time", G_TYPE_UINT64, runningTime, nullptr);
-  gst_element_post_message(GST_ELEMENT(element_),
-                           gst_message_new_element(GST_OBJECT(element_), fields));
+  postTimedMessage(element_, pts_, fields);
 }
 
 void ObjectMessages::tellObject(const char* name, uint64_t id) const {

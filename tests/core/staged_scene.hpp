@@ -82,7 +82,7 @@ class StagedScene {
     const int u = x + take.push.x, v = y + take.push.y;
     const bool isWalker = take.walker && take.walker->contains({u, v});
     const int level = isWalker ? 45 + static_cast<int>(dice(u / 5, v / 7, 3) % 20) : wall(u, v);
-    std::array colour{level, level, isWalker ? 3 * level : level * 4 / 5};
+    std::array colour{level, level, isWalker ? 3 * level : level * 3 / 5};
     if (take.isGrey) colour.fill(level);
     const uint32_t grain = dice(x, y, 1000 + static_cast<uint32_t>(frame_));
     for (size_t c = 0; c < colour.size(); ++c) {

@@ -179,7 +179,7 @@ TEST(Background, AnotherSceneStartsAnew) {
   });
   const auto foreground = camera.stage().process(other, {}, {30 * kFrameNs, true});
   ASSERT_TRUE(foreground);
-  EXPECT_EQ((*foreground)->scene.event, SceneEvent::Changed);
+  EXPECT_EQ((*foreground)->scene.event, SceneEvent::CameraMoved);
   const auto next = camera.stage().process(other, {}, {31 * kFrameNs, true});
   EXPECT_EQ((*next)->scene.foregroundPx, 0u);
 }

@@ -57,5 +57,93 @@ TEST_P(SceneChanges, AStoppedPersonStaysForAbsorbTimeThenFadesAndLeavesNoGhost) 
   EXPECT_LT(marks.falsePercent, 0.1);
 }
 
+Box seenFrom(const Point& push, const Box& box) {
+  return {box.x - push.x, box.y - push.y, box.width, box.height};
+}
+
+TEST_P(SceneChanges, AShakenCameraDoesNotFloodTheMask) {
+  StagedScene scene(GetParam());
+  scene.showFor(100, {});
+  int told = 0, followed = 0;
+  for (int i = 0; i < 60; ++i) {
+    const auto dice = static_cast<int>(mixHash(static_cast<uint32_t>(i), 7, 7) >> 8);
+    const Point push{dice % 7 - 3, dice / 7 % 7 - 3};
+    const auto foreground = scene.show({walkerAt(i), 100, push, false});
+    const auto marks = marksOf(*foreground, seenFrom(push, walkerAt(i)));
+    EXPECT_LT(marks.falsePercent, 1) << "frame " << i;
+    EXPECT_GE(marks.foundPercent, 80) << "frame " << i;
+    told += foreground->scene.event == SceneEvent::CameraShaken;
+    EXPECT_FALSE(isAnotherView(foreground->scene.event));
+    // A pixel's shift may do no harm, so that nobody looks for it.
+    const Point seen = foreground->scene.shift;
+    EXPECT_TRUE(GetParam().texture > Texture::Stone || seen == push || seen == Point{});
+    followed += seen == push;
+  }
+  EXPECT_TRUE(GetParam().texture > Texture::Stone || followed >= 40);
+  // A ramp looks the same from everywhere.
+  EXPECT_EQ(told, GetParam().texture == Texture::Ramp ? 0 : 1);
+}
+
+TEST_P(SceneChanges, ACameraThatWasTurnedStartsAnew) {
+  StagedScene scene(GetParam());
+  scene.showFor(100, {});
+  const Point push{405, 303};
+  int told = 0;
+  std::shared_ptr<const Foreground> last;
+  for (int i = 0; i < 130; ++i) {
+    last = scene.show({seenFrom({-push.x, -push.y}, walkerAt(i % 60)), 100, push, false});
+    told += isAnotherView(last->scene.event);
+  }
+  // On fine grain what is left of the old scene goes as ghosts before there is something to tell.
+  EXPECT_LE(told, 1);
+  EXPECT_TRUE(told == 1 || GetParam().texture == Texture::Stone);
+  const auto marks = marksOf(*last, walkerAt(129 % 60));
+  EXPECT_LT(marks.falsePercent, 2);
+  EXPECT_GE(marks.foundPercent, 80);
+}
+
+TEST_P(SceneChanges, InTheDarkNothingIsFoundAndNothingForgotten) {
+  StagedScene scene(GetParam());
+  scene.showFor(100, {});
+  EXPECT_EQ(scene.show({{}, 2, {}, false})->scene.event, SceneEvent::TooDark);
+  const auto dark = scene.showFor(200, {walkerAt(10), 2, {}, false});
+  EXPECT_TRUE(dark->scene.isDark);
+  EXPECT_EQ(dark->scene.event, SceneEvent::None);
+  EXPECT_EQ(dark->scene.foregroundPx, 0u);
+  const auto bright = scene.show({walkerAt(20), 100, {}, false});
+  EXPECT_EQ(bright->scene.event, SceneEvent::BrightAgain);
+  EXPECT_FALSE(bright->scene.isDark);
+  EXPECT_GE(marksOf(*bright, walkerAt(20)).foundPercent, 90);
+  EXPECT_LT(marksOf(*bright, walkerAt(20)).falsePercent, 1);
+}
+
+TEST_P(SceneChanges, AStreamThatStartsInTheDarkLearnsWhenItIsBright) {
+  StagedScene scene(GetParam());
+  const auto dark = scene.showFor(50, {{}, 2, {}, false});
+  EXPECT_EQ(dark->status, Status::Training);
+  EXPECT_TRUE(dark->scene.isDark);
+  EXPECT_EQ(scene.show({})->scene.event, SceneEvent::BrightAgain);
+  scene.showFor(60, {});
+  const auto marks = marksOf(*scene.show({walkerAt(9), 100, {}, false}), walkerAt(9));
+  EXPECT_GE(marks.foundPercent, 90);
+  EXPECT_LT(marks.falsePercent, 1);
+}
+
+TEST_P(SceneChanges, NightViewAndBackAreToldAndFollowed) {
+  StagedScene scene(GetParam());
+  scene.showFor(100, {});
+  for (const bool isGrey : {true, false}) {
+    int told = 0;
+    std::shared_ptr<const Foreground> last;
+    for (int i = 0; i < 76; ++i) {
+      last = scene.show({walkerAt(i % 60), isGrey ? 120 : 100, {}, isGrey});
+      told += last->scene.event == SceneEvent::ColourSwitched;
+    }
+    EXPECT_EQ(told, 1);
+    EXPECT_LT(marksOf(*last, walkerAt(75 % 60)).falsePercent, 2);
+    EXPECT_GE(marksOf(*last, walkerAt(75 % 60)).foundPercent, 80);
+  }
+}
+
 }  // namespace
 }  // namespace rg

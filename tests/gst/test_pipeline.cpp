@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The five elements together on a scene with known objects.
 #include "core/pixel.hpp"
+#include "gst/meta/gstregiongraph.h"
 #include "gst/meta/result_meta.hpp"
 #include "tests/support/harness.hpp"
 
@@ -144,6 +145,28 @@ TEST(Pipeline, TellsTheBeginningAndTheEndOfObjects) {
   EXPECT_EQ(count(during, "regiongraph-object-end"), 0);
   gst_harness_push_event(chain.harness(), gst_event_new_eos());
   EXPECT_EQ(count(elementMessages(chain), "regiongraph-object-end"), 2);
+}
+
+TEST(Pipeline, DarknessIsToldOnTheBusAndInTheMeta) {
+  const Caps caps{"GRAY8", 160, 120};
+  Chain chain("bgremove", caps);
+  const auto show = [&](int frame, int gain) {
+    return chain.pass(testing::paint(caps, frame, [=](int x, int y) {
+      return static_cast<uint8_t>(gain * (60 + (x / 9 + y / 7) % 5 * 30));
+    }));
+  };
+  for (int frame = 0; frame < 20; ++frame) (void)show(frame, 1);
+  EXPECT_TRUE(elementMessages(chain).empty());
+  const BufferPtr dark = show(20, 0);
+  const auto sceneEvent = [](GstBuffer* buffer) {
+    return gst_region_foreground_meta_get_scene_event(gst_buffer_get_region_foreground_meta(buffer),
+                                                      nullptr, nullptr);
+  };
+  EXPECT_EQ(sceneEvent(dark.get()), GST_REGION_SCENE_EVENT_TOO_DARK);
+  EXPECT_EQ(elementMessages(chain), std::vector<std::string>{"regiongraph-too-dark"});
+  EXPECT_EQ(sceneEvent(show(21, 0).get()), GST_REGION_SCENE_EVENT_NONE);
+  EXPECT_EQ(sceneEvent(show(22, 1).get()), GST_REGION_SCENE_EVENT_BRIGHT_AGAIN);
+  EXPECT_EQ(elementMessages(chain), std::vector<std::string>{"regiongraph-too-dark"});
 }
 
 TEST(Pipeline, AMovingCameraIsTold) {

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "gst/support/timed_message.hpp"
+
+namespace rg {
+
+void postTimedMessage(GstBaseTransform* element, GstClockTime pts, GstStructure* fields) {
+  const GstSegment* segment = &element->segment;
+  const bool hasTimes = segment->format == GST_FORMAT_TIME && GST_CLOCK_TIME_IS_VALID(pts);
+  const guint64 streamTime =
+      hasTimes ? gst_segment_to_stream_time(segment, GST_FORMAT_TIME, pts) : GST_CLOCK_TIME_NONE;
+  const guint64 runningTime =
+      hasTimes ? gst_segment_to_running_time(segment, GST_FORMAT_TIME, pts) : GST_CLOCK_TIME_NONE;
+  gst_structure_set(fields, "pts", G_TYPE_UINT64, static_cast<guint64>(pts), "stream-time",
+                    G_TYPE_UINT64, streamTime, "running-time", G_TYPE_UINT64, runningTime, nullptr);
+  gst_element_post_message(GST_ELEMENT(element),
+                           gst_message_new_element(GST_OBJECT(element), fields));
+}
+
+}  // namespace rg
