@@ -153,7 +153,7 @@ void HybridBackground::watch(const BackgroundJob& job, Foreground& out) {
     ++calmFrames_;
     return;
   }
-  if (hasSwitchedColour(smooth_, model_)) {
+  if (isEverywhere(verdicts_.raw) && hasSwitchedColour(smooth_, model_)) {
     event = SceneEvent::ColourSwitched;
     return;
   }
