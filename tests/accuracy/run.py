@@ -180,7 +180,8 @@ def main():
         sys.exit('run.py: none of these sets is there')
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         futures = [pool.submit(runner.run, name, kind) for name, kind in chosen]
-        rows = [row(*task, options.method, future.result()) for task, future in zip(chosen, futures)]
+        rows = [row(*task, options.method, future.result())
+                for task, future in zip(chosen, futures)]
     print('\n'.join(['| set | figures | gate |', '|---|---|---|'] + [text for text, _ in rows]))
     sys.exit(1 if options.gate and any(missed for _, missed in rows) else 0)
 
