@@ -53,7 +53,8 @@ void divideRow(const uint16_t* HWY_RESTRICT sums, const uint8_t* HWY_RESTRICT co
                uint8_t* HWY_RESTRICT to) {
   for (int i = 0; i < count; ++i) {
     const int by = counts[i] > 1 ? counts[i] : 1;
-    const auto mean = static_cast<float>(sums[i] + by / 2) / static_cast<float>(by);
+    const auto rounded = sums[i] + by / 2;
+    const auto mean = static_cast<float>(rounded) / static_cast<float>(by);
     to[i] = static_cast<uint8_t>(static_cast<int>(mean));
   }
 }
