@@ -54,7 +54,7 @@ template <class Sum>
 Point findBest(const Surface<Sum>& surface, int maxShift) {
   const auto count = static_cast<size_t>(2 * maxShift + 1);
   const int margin = surface.reach() - maxShift;
-  std::array<Sum, 2 * kMostReach + 1> leasts;
+  std::array<Sum, 2 * kMostReach + 1> leasts{};
   for (int dy = -maxShift; dy <= maxShift; ++dy)
     leasts[static_cast<size_t>(dy + maxShift)] = leastOf(surface.row(dy) + margin, count);
   const Sum least = leastOf(leasts.data(), count);
