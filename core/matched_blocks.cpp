@@ -2,6 +2,7 @@
 #include "core/matched_blocks.hpp"
 
 #include "core/simd/run_rows.hpp"
+#include "core/textured_cells.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -95,9 +96,21 @@ void MatchedBlocks::collect(const Graph& graph, Chunk& chunk) {
       for (const RegionRun& run : runs) addHalves(run, label, open, chunk);
       closeStrip(chunk);
     }
+    keepEnough(graph.labels->picture->luma(), chunk, begin);
     pixels_[region] = countPixels(std::span(chunk.parts).subspan(begin));
     starts_[region] = static_cast<uint32_t>(chunk.parts.size() - begin);
   }
+}
+
+/// Of the region whose parts begin there.
+void MatchedBlocks::keepEnough(ImageView<const uint8_t> luma, Chunk& chunk, size_t begin) {
+  const std::span<MatchedPart> parts = std::span(chunk.parts).subspan(begin);
+  if (countPixels(parts) <= kEnoughPx) return;
+  keepTextured(luma, parts, chunk.ranks);
+  const auto left = std::remove_if(parts.begin(), parts.end(),
+                                   [](const MatchedPart& part) { return part.blocks == 0; });
+  chunk.parts.resize(begin + static_cast<size_t>(left - parts.begin()));
+  chunk.stripFirst = chunk.parts.size();
 }
 
 void MatchedBlocks::addInner(const RegionRun& run, uint16_t label, Chunk& chunk) const {

@@ -4,7 +4,8 @@
 // The band along a region's border is a mixture of what lies on both sides, and what is covered or
 // uncovered lies in it: matched are pixels away from the border, in whole blocks of 4x1 pixels, as
 // wide as a SAD instruction. A region that has few such blocks takes every block of which half is
-// its own; one that is too thin for that, none.
+// its own; one that is too thin for that, none. Of a large region those with texture are enough
+// (core/textured_cells.hpp).
 // Each region that is matched costs a search however few its pixels are: of more regions than
 // mostMatched() those with the most pixels are, of equal ones those with the smaller labels.
 // Determinism: each block depends on its neighbourhood and on integer counts. Parts are sorted by
@@ -79,6 +80,7 @@ class MatchedBlocks {
     std::vector<MatchedPart> parts;
     std::vector<uint32_t> places;  ///< Of the strip's part in each column of tiles.
     size_t stripFirst = 0;         ///< Where the parts of the region and strip begin.
+    std::vector<uint64_t> ranks;   ///< Of a region's cells.
   };
 
   void findSteady(ImageView<const uint16_t> labels, const Executor& executor);
@@ -89,6 +91,7 @@ class MatchedBlocks {
                  Chunk& chunk) const;
   static void add(const RegionRun& run, int column, uint64_t halves, uint16_t label, Chunk& chunk);
   static void closeStrip(Chunk& chunk);
+  static void keepEnough(ImageView<const uint8_t> luma, Chunk& chunk, size_t begin);
   void dropSmallest();
   void joinChunks(size_t labelCount, const Executor& executor);
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "core/matched_blocks.hpp"
 #include "core/pixel.hpp"
 #include "core/region_motion.hpp"
 #include "tests/core/scenes.hpp"
@@ -6,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <map>
 #include <tuple>
 
 namespace rg {
@@ -61,48 +61,20 @@ TEST(RegionMotion, FindsEveryTranslation) {
   }
 }
 
-/// The first pixels of each label's matched blocks, by the words of core/matched_blocks.hpp.
-std::vector<std::vector<Point>> matchedBlocks(const Labels& labels) {
-  std::vector<std::vector<Point>> inner(labels.count + 1), half(labels.count + 1);
-  std::vector<size_t> areas(labels.count + 1);
-  const auto idAt = [&](int x, int y) { return size_t{labels.ids.at(x, y)}; };
-  const auto isInner = [&](Point p, size_t id) {
-    for (int step = -3; step <= 3; ++step)
-      for (const Point q : {Point{p.x + step, p.y}, Point{p.x, p.y + step}})
-        if (boundsOf(labels.size).contains(q) && idAt(q.x, q.y) != id) return false;
-    return true;
-  };
-  for (int y = 0; y < labels.size.height; ++y) {
-    for (int x = 0; x < labels.size.width; ++x) ++areas[idAt(x, y)];
-    for (int x = 0; x + 4 <= labels.size.width; x += 4) {
-      std::map<size_t, int> members;
-      for (int i = 0; i < 4; ++i) ++members[idAt(x + i, y)];
-      for (const auto& [id, count] : members) {
-        bool isWhole = true;
-        for (int i = 0; i < 4; ++i) isWhole = isWhole && isInner({x + i, y}, id);
-        if (isWhole) inner[id].push_back({x, y});
-        if (count >= 2) half[id].push_back({x, y});
-      }
-    }
-  }
-  for (size_t id = 0; id <= labels.count; ++id)
-    if (4 * inner[id].size() >= 16 && 4 * inner[id].size() >= areas[id] / 4) half[id] = inner[id];
-  return half;
-}
-
 RegionMotion search(const Picture& previous, const Picture& current,
-                    const std::vector<Point>& blocks, int reach) {
+                    std::span<const MatchedPart> parts, int reach) {
   const auto before = previous.luma();
   std::tuple<uint64_t, int, int, int> best{UINT64_MAX, 0, 0, 0};
   for (int dy = -reach; dy <= reach; ++dy)
     for (int dx = -reach; dx <= reach; ++dx) {
       uint64_t sad = 0;
-      for (const Point& block : blocks)
-        for (Point p = block; p.x < block.x + 4; ++p.x)
-          sad += static_cast<uint64_t>(
-              std::abs(current.luma().at(p.x, p.y) -
-                       before.at(std::clamp(p.x - dx, 0, before.width() - 1),
-                                 std::clamp(p.y - dy, 0, before.height() - 1))));
+      for (const MatchedPart& part : parts)
+        forBlocks(part, [&](int x, int y) {
+          for (int i = x; i < x + kBlockWidth; ++i)
+            sad += static_cast<uint64_t>(absDiff(
+                current.luma().at(i, y), before.at(std::clamp(i - dx, 0, before.width() - 1),
+                                                   std::clamp(y - dy, 0, before.height() - 1))));
+        });
       best = std::min(best, {sad, dx * dx + dy * dy, dy, dx});
     }
   return {std::get<3>(best) * kMotionUnit, std::get<2>(best) * kMotionUnit, std::get<0>(best), 0};
@@ -110,14 +82,15 @@ RegionMotion search(const Picture& previous, const Picture& current,
 
 void expectExhaustive(Size size, uint32_t count, const LabelAt& labelAt, int reach) {
   const auto previous = greyNoise(size, 21), current = greyNoise(size, 22);
-  const auto labels = label(current, count, labelAt);
-  const auto blocks = matchedBlocks(*labels);
+  MatchedBlocks blocks;
+  blocks.find(*graphOf(label(current, count, labelAt)), Executor(1));
   for (const int threads : {1, 2}) {
     const auto motion = match(previous, current, count, labelAt, {reach, false}, threads);
     ASSERT_EQ(motion->regions.size(), count);
     for (uint32_t id = 1; id <= count; ++id) {
-      const RegionMotion expected =
-          blocks[id].empty() ? RegionMotion{} : search(*previous, *current, blocks[id], reach);
+      const RegionMotion expected = blocks.partsOf(id).empty()
+                                        ? RegionMotion{}
+                                        : search(*previous, *current, blocks.partsOf(id), reach);
       EXPECT_EQ(motion->regions[id - 1].dx, expected.dx) << "region " << id;
       EXPECT_EQ(motion->regions[id - 1].dy, expected.dy) << "region " << id;
       EXPECT_EQ(motion->regions[id - 1].sad, expected.sad) << "region " << id;
