@@ -27,6 +27,12 @@ int farthestOf(const uint8_t* a, const uint8_t* b) {
   return std::max({absDiff(a[0], b[0]), absDiff(a[1], b[1]), absDiff(a[2], b[2])});
 }
 
+constexpr uint64_t kApart = uint64_t{1} << 16;  // Of the keys of cells in scope apart.
+
+uint16_t idOf(uint64_t key) {
+  return static_cast<uint16_t>(key & 0xFFFF);
+}
+
 /// Whether a colour is what pixels of two others mix to.
 bool lies(const uint8_t* colour, const uint8_t* one, const uint8_t* other) {
   if (farthestOf(one, other) <= kAlikeColours) return false;
@@ -41,97 +47,145 @@ bool lies(const uint8_t* colour, const uint8_t* one, const uint8_t* other) {
 
 void BorderPixels::refine(const ColourCells& cells, ImageView<const uint16_t> cellIds,
                           const Executor& executor, ImageView<uint16_t> ids) {
+  constexpr int kBandRows = 16;
   pixels_ = cells.pixels();
   cells_ = cells.cells();
   cellIds_ = cellIds;
   ids_ = ids;
-  packed_.resize(cells_.size);
-  executor.forRows(cells_.size.height, [&](int first, int last) {
-    for (int row = first; row < last; ++row) pack(row);
-  });
   scratch_.resize(static_cast<size_t>(executor.threads()));
-  executor.forEach(cells_.size.height, [&](int cellRow, int thread) {
-    spread(cellRow);
-    refineRow(cellRow, scratch_[static_cast<size_t>(thread)]);
+  const int height = cells_.size.height;
+  executor.forEach((height + kBandRows - 1) / kBandRows, [&](int band, int thread) {
+    Scratch& scratch = scratch_[static_cast<size_t>(thread)];
+    prepare(scratch);
+    const int first = band * kBandRows, last = std::min(first + kBandRows, height);
+    const auto line = [&](int row) -> CellLine& {
+      return scratch.lines[static_cast<size_t>((row + 3) % 3)];
+    };
+    pack(first - 1, line(first - 1));
+    pack(first, line(first));
+    for (int row = first; row < last; ++row) {
+      pack(row + 1, line(row + 1));
+      refineRow(row, scratch);
+    }
   });
 }
 
-void BorderPixels::pack(int cellRow) {
+void BorderPixels::prepare(Scratch& scratch) const {
+  const auto count = static_cast<size_t>(cells_.size.width);
+  const size_t padded = count * static_cast<size_t>(cells_.sidePx);
+  for (CellLine& line : scratch.lines)
+    for (auto* words : {&line.keys, &line.colours, &line.pures})
+      words->assign(count + simd::kSideLanes + 1, 0);
+  for (auto* sums : {&scratch.own, &scratch.other, &scratch.others})
+    sums->resize(count + simd::kSideLanes - 1);
+  scratch.ids.resize(count);
+  for (auto& colours : scratch.colours) colours.resize(count);
+  for (auto& colours : scratch.wide) colours.resize(padded);
+  for (auto* ids : {&scratch.wideOwn, &scratch.wideOther}) ids->resize(padded);
+}
+
+void BorderPixels::pack(int cellRow, CellLine& line) const {
+  const auto width = static_cast<size_t>(cells_.size.width);
+  if (cellRow < 0 || cellRow >= cells_.size.height) {
+    std::fill(line.keys.begin(), line.keys.end(), 0u);
+    return;
+  }
   const uint8_t *red = cells_.colours[0].row(cellRow), *green = cells_.colours[1].row(cellRow);
   const uint8_t *blue = cells_.colours[2].row(cellRow), *ranges = cells_.ranges.row(cellRow);
-  PackedCell* to = packed_.row(cellRow);
-  for (int x = 0; x < cells_.size.width; ++x) {
+  const uint16_t* ids = cellIds_.row(cellRow);
+  for (size_t x = 0; x < width; ++x) {
     const uint64_t colour = uint64_t{1} << (3 * kLaneBits) | uint64_t{blue[x]} << (2 * kLaneBits) |
                             uint64_t{green[x]} << kLaneBits | red[x];
-    to[x] = {colour, ranges[x] <= kOneColour ? colour : 0};
+    line.keys[x + 1] = ids[x];
+    line.colours[x + 1] = colour;
+    line.pures[x + 1] = ranges[x] <= kOneColour ? colour : 0;
   }
-}
-
-/// Gives every pixel the region of its cell.
-void BorderPixels::spread(int cellRow) const {
-  const int side = cells_.sidePx, width = pixels_.size.width;
-  const int top = cellRow * side, bottom = std::min(top + side, pixels_.size.height);
-  const uint16_t* from = cellIds_.row(cellRow);
-  uint16_t* to = ids_.row(top);
-  const int whole = width / side;
-  for (int x = 0; x < whole; ++x) std::fill_n(to + x * side, side, from[x]);
-  for (int x = whole * side; x < width; ++x) to[x] = from[whole];
-  for (int y = top + 1; y < bottom; ++y) std::copy_n(to, width, ids_.row(y));
+  if (cells_.scope.data == nullptr) return;
+  const uint8_t* scope = cells_.scope.row(cellRow);
+  for (size_t x = 0; x < width; ++x)
+    if (ids[x] != 0 && scope[x] != kInScope) line.keys[x + 1] |= kApart;
 }
 
 void BorderPixels::refineRow(int cellRow, Scratch& scratch) const {
-  const int width = cells_.size.width, last = cells_.size.height - 1;
-  const uint16_t *above = cellIds_.row(std::max(cellRow - 1, 0)), *own = cellIds_.row(cellRow);
-  const uint16_t* below = cellIds_.row(std::min(cellRow + 1, last));
-  for (auto* extremes : {&scratch.least, &scratch.most})
-    extremes->resize(static_cast<size_t>(width) + 2);
-  uint16_t *least = scratch.least.data() + 1, *most = scratch.most.data() + 1;
-  for (int x = 0; x < width; ++x) {
-    least[x] = std::min({above[x], own[x], below[x]});
-    most[x] = std::max({above[x], own[x], below[x]});
-  }
-  least[-1] = least[0], most[-1] = most[0];
-  least[width] = least[width - 1], most[width] = most[width - 1];
-  for (int x = 0; x < width; ++x)
-    if (own[x] != 0 && std::min({least[x - 1], least[x], least[x + 1]}) !=
-                           std::max({most[x - 1], most[x], most[x + 1]}))
-      refineCell(x, cellRow);
+  const auto line = [&](int row) { return scratch.lines[static_cast<size_t>(row % 3)].cells(); };
+  const simd::ThreeRows lines{line(cellRow + 2), line(cellRow), line(cellRow + 1)};
+  simd::findSides(lines, cells_.size.width,
+                  {scratch.own.data(), scratch.other.data(), scratch.others.data()});
+  comparePairs(cellRow, scratch);
+  for (int x = 0; x < cells_.size.width; ++x)
+    if (scratch.others[static_cast<size_t>(x)] == simd::kManySides) refineCell(x, cellRow, lines);
   if (pixels_.scope.data == nullptr) return;
   const int top = cellRow * cells_.sidePx;
   for (int y = top; y < std::min(top + cells_.sidePx, pixels_.size.height); ++y) clearOutOfScope(y);
 }
 
-void BorderPixels::collect(int cellX, int cellY, Candidates& candidates) const {
-  Found found;
-  const uint16_t own = cellIds_.at(cellX, cellY);
-  const PackedCell& centre = packed_.at(cellX, cellY);
-  const bool hasScope = cells_.scope.data != nullptr;
-  const uint8_t ownScope = hasScope ? cells_.scope.at(cellX, cellY) : kInScope;
+// Most cells at a border have one neighbour region, so a row of these goes through vectors. Where
+// there is no choice both regions are the own one.
+void BorderPixels::comparePairs(int cellRow, Scratch& scratch) const {
+  const uint16_t* own = cellIds_.row(cellRow);
+  const auto width = static_cast<size_t>(cells_.size.width);
+  std::copy_n(own, width, scratch.ids.begin());
+  for (auto& colours : scratch.colours) std::fill(colours.begin(), colours.end(), uint8_t{0});
+  bool isDivided = false;
+  for (size_t x = 0; x < width; ++x) {
+    if (scratch.others[x] == 0 || scratch.others[x] == simd::kManySides) continue;
+    uint8_t colours[2][3];
+    for (int c = 0; c < 3; ++c) {
+      colours[0][c] = meanOf(scratch.own[x], c);
+      colours[1][c] = meanOf(scratch.other[x], c);
+    }
+    if (farthestOf(colours[0], colours[1]) <= kAlikeColours) continue;
+    scratch.ids[x] = idOf(scratch.others[x]);
+    for (size_t k = 0; k < 6; ++k) scratch.colours[k][x] = colours[k / 3][k % 3];
+    isDivided = true;
+  }
+  chooseRows(cellRow, isDivided, scratch);
+}
+
+void BorderPixels::chooseRows(int cellRow, bool isDivided, Scratch& scratch) const {
+  const int side = cells_.sidePx, count = cells_.size.width, width = pixels_.size.width;
+  const int top = cellRow * side, bottom = std::min(top + side, pixels_.size.height);
+  simd::repeatRow(cellIds_.row(cellRow), count, side, scratch.wideOwn.data());
+  if (!isDivided) {
+    for (int y = top; y < bottom; ++y) std::copy_n(scratch.wideOwn.data(), width, ids_.row(y));
+    return;
+  }
+  simd::repeatRow(scratch.ids.data(), count, side, scratch.wideOther.data());
+  simd::PixelSides sides{{}, {}, {}, scratch.wideOwn.data(), scratch.wideOther.data(), kMargin};
+  for (size_t c = 0; c < 3; ++c) {
+    sides.own[c] = scratch.wide[c].data();
+    sides.other[c] = scratch.wide[c + 3].data();
+  }
+  for (size_t k = 0; k < scratch.wide.size(); ++k)
+    simd::repeatRow(scratch.colours[k].data(), count, side, scratch.wide[k].data());
+  for (int y = top; y < bottom; ++y) {
+    for (size_t c = 0; c < 3; ++c) sides.pixels[c] = pixels_.colours[c].row(y);
+    simd::chooseSides(sides, width, ids_.row(y));
+  }
+}
+
+void BorderPixels::collect(int cellX, const simd::ThreeRows& lines, Found& found) {
+  const uint64_t own = lines.middle.keys[cellX];
   // A cell of several colours says nothing of its own region.
-  found.ids[0] = own;
-  found.all[0] = found.pure[0] = centre.pure;
-  const int left = std::max(cellX - 1, 0), right = std::min(cellX + 1, cells_.size.width - 1);
-  for (int y = std::max(cellY - 1, 0); y <= std::min(cellY + 1, cells_.size.height - 1); ++y) {
-    const uint16_t* ids = cellIds_.row(y);
-    const PackedCell* packed = packed_.row(y);
-    const uint8_t* scope = hasScope ? cells_.scope.row(y) : nullptr;
-    for (int x = left; x <= right; ++x) {
-      if (x == cellX && y == cellY) continue;
-      const uint16_t id = ids[x];
-      if (id == 0 || (scope != nullptr && scope[x] != ownScope)) continue;
+  found.ids[0] = idOf(own);
+  found.all[0] = found.pure[0] = lines.middle.pures[cellX];
+  for (const simd::PackedCells& line : {lines.above, lines.middle, lines.below}) {
+    for (int x = cellX - 1; x <= cellX + 1; ++x) {
+      const uint64_t key = line.keys[x];
+      if (key == 0 || ((key ^ own) & kApart) != 0) continue;
+      if (x == cellX && line.keys == lines.middle.keys) continue;
       int k = 0;
-      while (k < found.count && found.ids[k] != id) ++k;
+      while (k < found.count && found.ids[k] != idOf(key)) ++k;
       if (k == found.count) {
-        found.ids[k] = id;
+        found.ids[k] = idOf(key);
         found.all[k] = found.pure[k] = 0;
         ++found.count;
       }
-      found.all[k] += packed[x].colour;
-      found.pure[k] += packed[x].pure;
+      found.all[k] += line.colours[x];
+      found.pure[k] += line.pures[x];
     }
   }
-  if (found.all[0] == 0) found.all[0] = centre.colour;
-  choose(found, candidates);
+  if (found.all[0] == 0) found.all[0] = lines.middle.colours[cellX];
 }
 
 void BorderPixels::choose(const Found& found, Candidates& candidates) {
@@ -155,9 +209,11 @@ void BorderPixels::choose(const Found& found, Candidates& candidates) {
   }
 }
 
-void BorderPixels::refineCell(int cellX, int cellY) const {
+void BorderPixels::refineCell(int cellX, int cellY, const simd::ThreeRows& lines) const {
+  Found found;
   Candidates candidates;
-  collect(cellX, cellY, candidates);
+  collect(cellX, lines, found);
+  choose(found, candidates);
   simd::CellColours& cell = candidates.cell;
   const bool isMoved = candidates.ids[0] != cellIds_.at(cellX, cellY);
   if (cell.count < 2 && !isMoved) return;

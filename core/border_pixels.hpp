@@ -15,8 +15,10 @@
 #include "core/colour_cells.hpp"
 #include "core/executor.hpp"
 #include "core/image.hpp"
+#include "core/simd/border_rows.hpp"
 #include "core/simd/cell_rows.hpp"
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -30,6 +32,14 @@ class BorderPixels {
               ImageView<uint16_t> ids);
 
  private:
+  /// A row of cells, each to be summed: its channels and a 1 to count it, in four lanes. A place
+  /// more on either side, 0 as all that is beyond the picture.
+  struct CellLine {
+    std::vector<uint64_t> keys, colours, pures;
+    [[nodiscard]] simd::PackedCells cells() const {
+      return {keys.data() + 1, colours.data() + 1, pures.data() + 1};
+    }
+  };
   /// Regions round a cell: packed sums of their cells there, and of those of one colour.
   struct Found {
     uint64_t all[simd::kMostColours], pure[simd::kMostColours];
@@ -42,24 +52,25 @@ class BorderPixels {
   };
   /// Of one thread.
   struct Scratch {
-    std::vector<uint16_t> least, most;
+    std::array<CellLine, 3> lines;  ///< Of the rows above, of and below the one that is refined.
+    std::vector<uint64_t> own, other, others;
+    std::vector<uint16_t> ids;                    ///< Of the other region, by cell.
+    std::array<std::vector<uint8_t>, 6> colours;  ///< Of the own region and the other, by cell,
+    std::array<std::vector<uint8_t>, 6> wide;     ///< and by pixel.
+    std::vector<uint16_t> wideOwn, wideOther;
   };
 
-  void pack(int cellRow);
-  void spread(int cellRow) const;
+  void prepare(Scratch& scratch) const;
+  void pack(int cellRow, CellLine& line) const;
   void refineRow(int cellRow, Scratch& scratch) const;
-  void collect(int cellX, int cellY, Candidates& candidates) const;
+  void comparePairs(int cellRow, Scratch& scratch) const;
+  void chooseRows(int cellRow, bool isDivided, Scratch& scratch) const;
+  void refineCell(int cellX, int cellY, const simd::ThreeRows& lines) const;
+  static void collect(int cellX, const simd::ThreeRows& lines, Found& found);
   static void choose(const Found& found, Candidates& candidates);
-  void refineCell(int cellX, int cellY) const;
   void clearOutOfScope(int y) const;
 
   ColourPlanes pixels_, cells_;
-  /// A cell, to be summed.
-  struct PackedCell {
-    uint64_t colour = 0;  ///< Its channels and a 1 to count it, in four lanes.
-    uint64_t pure = 0;    ///< The same of a cell of one colour, else 0.
-  };
-  Image<PackedCell> packed_;
   ImageView<const uint16_t> cellIds_;
   ImageView<uint16_t> ids_;
   std::vector<Scratch> scratch_;

@@ -3,10 +3,12 @@
 
 #include "core/colour_links.hpp"
 #include "core/row_spans.hpp"
+#include "core/simd/link_rows.hpp"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <mutex>
 #include <string>
 #include <utility>
 
@@ -67,6 +69,22 @@ void settleRow(const Image<uint8_t>& raw, int y, ImageView<const uint8_t> scope,
   }
 }
 
+/// Of every fourth pixel of a row: `samples` of them.
+void countHues(const Picture& picture, int y, int samples, HueHistogram& histogram) {
+  constexpr int kBlock = 256;
+  const uint8_t* rows[] = {picture.red().row(y), picture.green().row(y), picture.blue().row(y)};
+  uint8_t colours[3][kBlock];
+  int16_t hues[kBlock];
+  for (int first = 0; first < samples; first += kBlock) {
+    const int count = std::min(samples - first, kBlock);
+    for (int c = 0; c < 3; ++c)
+      for (int i = 0; i < count; ++i) colours[c][i] = rows[c][(first + i) * kSampleStep];
+    simd::findHueRow(colours[0], colours[1], colours[2], count, {}, hues);
+    for (int i = 0; i < count; ++i)
+      if (hues[i] != kAchromatic) ++histogram[static_cast<size_t>(hues[i])];
+  }
+}
+
 bool readDegrees(std::string_view text, double& to) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), to);
   return error == std::errc{} && end == text.data() + text.size() && to >= 0 && to <= kDegrees;
@@ -82,19 +100,19 @@ Error noBand(std::string_view text) {
 
 }  // namespace
 
-HueBand findFrameBand(const Picture& picture) {
+HueBand findFrameBand(const Picture& picture, const Executor& executor) {
   if (picture.isGrey()) return {};
-  HueHistogram histogram{};
-  uint64_t total = 0;
-  for (int y = 0; y < picture.size().height; y += kSampleStep) {
-    const uint8_t *red = picture.red().row(y), *green = picture.green().row(y),
-                  *blue = picture.blue().row(y);
-    for (int x = 0; x < picture.size().width; x += kSampleStep, ++total) {
-      const int hue = hueOf(red[x], green[x], blue[x]);
-      if (hue != kAchromatic) ++histogram[static_cast<size_t>(hue)];
-    }
-  }
-  return findBackgroundBand(histogram, total);
+  const auto samples = [](int length) { return (length + kSampleStep - 1) / kSampleStep; };
+  const Size size{samples(picture.size().width), samples(picture.size().height)};
+  HueHistogram total{};
+  std::mutex mutex;  // Protects `total`; nothing is called while it is held.
+  executor.forRows(size.height, [&](int first, int last) {
+    HueHistogram own{};
+    for (int y = first; y < last; ++y) countHues(picture, y * kSampleStep, size.width, own);
+    const std::lock_guard lock(mutex);
+    for (size_t i = 0; i < total.size(); ++i) total[i] += own[i];
+  });
+  return findBackgroundBand(total, static_cast<uint64_t>(size.area()));
 }
 
 Result<HueBand> parseHueBand(std::string_view text) {

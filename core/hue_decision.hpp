@@ -40,7 +40,7 @@ struct HueRules {
 
 /// The band of the background's hues: that of the histogram of every fourth pixel of every fourth
 /// row, of the whole frame whatever part of it is looked at.
-[[nodiscard]] HueBand findFrameBand(const Picture& picture);
+[[nodiscard]] HueBand findFrameBand(const Picture& picture, const Executor& executor);
 
 /// Reads "FROM-TO", degrees of the colour circle from 0 (red) over 120 (green) and 240 (blue) to
 /// 360; FROM may be the larger one: 350-10 lies round red. Empty text: no band.

@@ -132,7 +132,7 @@ Result<std::shared_ptr<const Labels>> CpuSegmentation::process(
   const uint32_t minArea = leastArea(params, labels->size);
   const auto maxRegions = static_cast<uint32_t>(std::clamp(params.maxRegions, 1, kMostRegions));
 
-  const HueBand band = findFrameBand(*picture);
+  const HueBand band = findFrameBand(*picture, *context_.cpu);
   const ImageView<const uint8_t> mask =
       decideByHue(*picture, foreground.get(), params.hue, band,
                   chooseScope(*picture, foreground.get(), params.scope), *labels);
