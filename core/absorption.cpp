@@ -81,6 +81,7 @@ void Absorption::chooseSmallest(uint32_t count) {
 /// Returns how many regions vanished.
 uint64_t Absorption::mergeRound() {
   const size_t before = regions_.size();
+  if (std::find(chooses_.begin(), chooses_.end(), 1) == chooses_.end()) return 0;
   findBest();
   if (std::all_of(best_.begin(), best_.end(), [](uint64_t key) { return key == kNoChoice; }))
     return 0;
@@ -167,22 +168,24 @@ void Absorption::numberKept() {
 }
 
 // Sorts by the smaller number with one count, then joins equal pairs by remembering where the
-// larger number was last seen.
+// larger number was last seen. What is dropped or joined is hard to foretell: it is written and not
+// counted.
 void Absorption::joinBorders() {
   starts_.assign(regions_.size() + 1, 0);
   size_t open = 0;
   for (const AbsorbedBorder& border : borders_) {
     const uint32_t a = numbers_[border.a], b = numbers_[border.b];
-    if (a == b) continue;
-    const AbsorbedBorder ordered{std::min(a, b), std::max(a, b), border.borderPx};
-    ++starts_[ordered.a + 1];
-    borders_[open++] = ordered;
+    const uint32_t first = std::min(a, b);
+    borders_[open] = {first, std::max(a, b), border.borderPx};
+    starts_[first + 1] += a != b;
+    open += a != b;
   }
   std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
   sorted_.resize(open);
   for (size_t i = 0; i < open; ++i) sorted_[starts_[borders_[i].a]++] = borders_[i];
 
-  seenAt_.assign(regions_.size(), kUnseen);
+  seenAt_.assign(regions_.size(), 0);  // One more than the place.
+  borders_.resize(std::max(borders_.size(), open + 1));
   size_t kept = 0, firstOfA = 0;
   uint32_t a = kUnseen;
   for (const AbsorbedBorder& border : sorted_) {
@@ -190,13 +193,13 @@ void Absorption::joinBorders() {
       a = border.a;
       firstOfA = kept;
     }
-    uint32_t& at = seenAt_[border.b];
-    if (at != kUnseen && at >= firstOfA) {
-      borders_[at].borderPx += border.borderPx;
-    } else {
-      at = static_cast<uint32_t>(kept);
-      borders_[kept++] = border;
-    }
+    const size_t seen = seenAt_[border.b];
+    const bool isNew = seen <= firstOfA;
+    const size_t at = isNew ? kept : seen - 1;
+    const uint32_t joinedPx = isNew ? 0 : borders_[at].borderPx;
+    borders_[at] = {border.a, border.b, joinedPx + border.borderPx};
+    seenAt_[border.b] = static_cast<uint32_t>(at + 1);
+    kept += isNew;
   }
   borders_.resize(kept);
 }

@@ -40,6 +40,7 @@ class ColourLinks {
   void build(const ColourPlanes& planes, const LinkParams& params, const Executor& executor);
 
   [[nodiscard]] Size size() const { return planes_.size; }
+  [[nodiscard]] ImageView<const uint8_t> scope() const { return planes_.scope; }
   [[nodiscard]] const uint8_t* links(int y) const { return links_.row(y); }
 
  private:

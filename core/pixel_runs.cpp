@@ -51,6 +51,8 @@ bool isAnySet(const uint64_t* words, int first, int last) {
 
 void PixelRuns::build(const ColourLinks& links, const RunLimits& limits, const Executor& executor) {
   prepare(links.size(), limits);
+  labels_ = {};
+  scopePlane_ = links.scope();
   executor.forRows(size_.height, [&](int firstRow, int lastRow) {
     for (int y = firstRow; y < lastRow; ++y) {
       const uint8_t* row = links.links(y);
@@ -63,24 +65,25 @@ void PixelRuns::build(const ColourLinks& links, const RunLimits& limits, const E
   findComponents(executor);
 }
 
-void PixelRuns::build(ImageView<const uint16_t> labels, const RunLimits& limits,
+void PixelRuns::build(ImageView<const uint16_t> labels, ImageView<const uint8_t> scope,
                       const Executor& executor) {
-  prepare(labels.size, limits);
+  prepare(labels.size, {});
+  labels_ = labels;
+  scopePlane_ = scope;
   noLabels_.assign(static_cast<size_t>(size_.width), 0);
   executor.forRows(size_.height, [&](int firstRow, int lastRow) {
     for (int y = firstRow; y < lastRow; ++y) {
       const uint16_t* row = labels.row(y);
-      uint64_t *scope = scope_.row(y), *left = leftLinks_.row(y);
-      simd::packEqual(row, noLabels_.data(), size_.width, scope);
-      for (int i = 0; i < scope_.width(); ++i) scope[i] = ~scope[i];
+      uint64_t *isIn = scope_.row(y), *left = leftLinks_.row(y);
+      simd::packEqual(row, noLabels_.data(), size_.width, isIn);
+      for (int i = 0; i < scope_.width(); ++i) isIn[i] = ~isIn[i];
       if (const int rest = size_.width % kWordBits; rest != 0)
-        scope[scope_.width() - 1] &= ~(~uint64_t{0} << rest);
+        isIn[scope_.width() - 1] &= ~(~uint64_t{0} << rest);
       // Bit i is that of pixel i + 1; the first pixel has no left neighbour.
       simd::packEqual(row + 1, row, size_.width - 1, left);
       if (size_.width % kWordBits == 1) left[scope_.width() - 1] = 0;
       for (int i = scope_.width() - 1; i >= 0; --i)
-        left[i] = (left[i] << 1 | (i > 0 ? left[i - 1] >> (kWordBits - 1) : 0)) & scope[i];
-      simd::packEqual(row, labels.row(std::max(y - 1, 0)), size_.width, upLinks_.row(y));
+        left[i] = (left[i] << 1 | (i > 0 ? left[i - 1] >> (kWordBits - 1) : 0)) & isIn[i];
       countRuns(y);
     }
   });
@@ -102,23 +105,44 @@ void PixelRuns::prepare(Size size, const RunLimits& limits) {
 void PixelRuns::findComponents(const Executor& executor) {
   for (size_t y = 1; y < rowStarts_.size(); ++y) rowStarts_[y] += rowStarts_[y - 1];
   runs_.resize(rowStarts_.back());
-  parents_.resize(rowStarts_.back());
-  areas_.resize(rowStarts_.back());
-  cuts_.resize(static_cast<size_t>((size_.height + limits_.tilePx - 1) / limits_.tilePx));
-  executor.forEach(bandCount(), [&](int band) {
-    const Span rows = bandRows(band);
-    std::vector<uint32_t>& cuts = cuts_[static_cast<size_t>(band)];
-    cuts.clear();
-    for (int y = rows.first; y < rows.last; ++y) findRuns(y, cuts);
-    for (int y = rows.first + 1; y < rows.last; ++y) joinRows(y, parents_);
-    for (uint32_t i = rowStart(rows.first); i < rowStart(rows.last); ++i) {
-      parents_[i] = findRoot(parents_, i);
-      areas_[i] = 0;
-      areas_[parents_[i]] += static_cast<uint32_t>(runs_[i].last - runs_[i].first);
-    }
+  for (auto* numbers : {&parents_, &areas_, &whole_, &wholeAreas_, &components_})
+    numbers->resize(rowStarts_.back());
+  bands_.resize(static_cast<size_t>((size_.height + limits_.tilePx - 1) / limits_.tilePx));
+  scratch_.resize(static_cast<size_t>(executor.threads()));
+  executor.forEach(bandCount(), [&](int band, int thread) {
+    findParts(band, scratch_[static_cast<size_t>(thread)]);
   });
-  joinTiles();
+  joinBands();
   numberComponents();
+}
+
+// Rows are walked once: what touches without a link is looked at again when the parts are known.
+void PixelRuns::findParts(int index, Scratch& scratch) {
+  Band& band = bands_[static_cast<size_t>(index)];
+  const Span rows = bandRows(index);
+  const uint32_t firstRun = rowStart(rows.first), lastRun = rowStart(rows.last);
+  band.cuts.clear();
+  for (int y = rows.first; y < rows.last; ++y) findRuns(y, band.cuts);
+  scratch.touching.makeRoomFor(2 * size_t{lastRun - firstRun});
+  for (int y = rows.first + 1; y < rows.last; ++y) {
+    collectOverlaps(y, scratch);
+    for (const Overlap& pair : scratch.linked.all()) unite(parents_, pair.upper, pair.lower);
+  }
+  band.parts.clear();
+  band.parts.reserve(lastRun - firstRun);
+  for (uint32_t i = firstRun; i < lastRun; ++i) {
+    const uint32_t part = parents_[i] = parents_[parents_[i]];
+    if (part == i) {
+      band.parts.push_back(i);
+      areas_[i] = 0;
+    }
+    areas_[part] += static_cast<uint32_t>(runs_[i].last - runs_[i].first);
+  }
+  band.inner.clear();
+  for (const Overlap& pair : scratch.touching.all())
+    if (const uint32_t a = parents_[pair.upper], b = parents_[pair.lower]; a != b)
+      band.inner.add(a, b, pair.columns);
+  for (int y = rows.first; y < rows.last; ++y) collectSides(y, band.inner);
 }
 
 /// Runs begin where the scope does or where no link leads on.
@@ -154,35 +178,91 @@ void PixelRuns::findRuns(int y, std::vector<uint32_t>& cuts) {
   if (isOpen) runs_[next].last = size_.width;
 }
 
-void PixelRuns::joinRows(int y, std::vector<uint32_t>& parents) const {
+// Whether two rows' runs are linked is hard to foretell, so each overlap is written to both lists
+// and counted in one. There are fewer of them than runs in both rows.
+void PixelRuns::collectOverlaps(int y, Scratch& scratch) const {
+  const bool hasLabels = labels_.data != nullptr, hasScope = scopePlane_.data != nullptr;
+  const uint16_t* labels = hasLabels ? labels_.row(y) : nullptr;
+  const uint16_t* labelsAbove = hasLabels ? labels_.row(y - 1) : nullptr;
   const uint64_t* links = upLinks_.row(y);
-  forOverlaps(*this, y, [&](uint32_t i, uint32_t j, int first, int last) {
-    if (isAnySet(links, first, last)) unite(parents, i, j);
-  });
+  const uint8_t* scope = hasScope ? scopePlane_.row(y) : nullptr;
+  const uint8_t* scopeAbove = hasScope ? scopePlane_.row(y - 1) : nullptr;
+  const PixelRun* runs = runs_.data();
+  scratch.linked.makeRoomFor(rowStart(y + 1) - rowStart(y - 1));
+  Overlap *linked = scratch.linked.list.data(), *firstLinked = linked;
+  Overlap *touching = scratch.touching.list.data() + scratch.touching.count,
+          *firstTouching = touching;
+  uint32_t i = rowStart(y - 1), j = rowStart(y);
+  const uint32_t iEnd = j, jEnd = rowStart(y + 1);
+  while (i < iEnd && j < jEnd) {
+    const PixelRun upper = runs[i], lower = runs[j];
+    const int first = std::max(upper.first, lower.first), last = std::min(upper.last, lower.last);
+    if (first < last) {
+      const bool isLinked =
+          hasLabels ? labelsAbove[first] == labels[first] : isAnySet(links, first, last);
+      const bool isAlike = !hasScope || scopeAbove[first] == scope[first];
+      *linked = *touching = {i, j, static_cast<uint32_t>(last - first)};
+      linked += isLinked;
+      touching += !isLinked && isAlike;
+    }
+    i += upper.last <= lower.last;
+    j += lower.last <= upper.last;
+  }
+  scratch.linked.count += static_cast<size_t>(linked - firstLinked);
+  scratch.touching.count += static_cast<size_t>(touching - firstTouching);
 }
 
-void PixelRuns::joinTiles() {
-  whole_ = parents_;
-  for (int band = 1; band < bandCount(); ++band) joinRows(bandRows(band).first, whole_);
-  for (const std::vector<uint32_t>& cuts : cuts_)
-    for (const uint32_t run : cuts) unite(whole_, run - 1, run);
-  for (uint32_t i = 0; i < count(); ++i) {
-    if (parents_[i] != i) continue;
-    whole_[i] = findRoot(whole_, i);
-    if (whole_[i] != i) areas_[whole_[i]] += areas_[i];
+void PixelRuns::collectSides(int y, BorderList& borders) const {
+  const uint8_t* scope = scopePlane_.data != nullptr ? scopePlane_.row(y) : nullptr;
+  for (uint32_t i = rowStart(y) + 1; i < rowStart(y + 1); ++i) {
+    const uint32_t a = parents_[i - 1], b = parents_[i];
+    const int x = runs_[i].first;
+    if (a == b || runs_[i - 1].last != x) continue;
+    if (scope == nullptr || scope[x - 1] == scope[x]) borders.add(a, b, 1);
   }
 }
 
-// The first run of a whole precedes its parts, and that of a part its runs: one sweep in raster
-// order sees each of them first.
+/// What is linked may be cut here: then it is a border, too.
+void PixelRuns::joinSeam(const Scratch& scratch, BorderList& seam) {
+  for (const Overlap& pair : scratch.linked.all())
+    unite(whole_, parents_[pair.upper], parents_[pair.lower]);
+  for (const Overlaps* pairs : {&scratch.linked, &scratch.touching})
+    for (const Overlap& pair : pairs->all())
+      seam.add(parents_[pair.upper], parents_[pair.lower], pair.columns);
+}
+
+void PixelRuns::joinBands() {
+  for (const Band& band : bands_)
+    for (const uint32_t part : band.parts) {
+      whole_[part] = part;
+      wholeAreas_[part] = 0;
+    }
+  for (int index = 0; index < bandCount(); ++index) {
+    Band& band = bands_[static_cast<size_t>(index)];
+    band.seam.clear();
+    if (const int y = bandRows(index).first; y > 0) {
+      scratch_[0].touching.makeRoomFor(rowStart(y + 1) - rowStart(y - 1));
+      collectOverlaps(y, scratch_[0]);
+      joinSeam(scratch_[0], band.seam);
+    }
+    for (const uint32_t run : band.cuts) unite(whole_, parents_[run - 1], parents_[run]);
+  }
+  for (const Band& band : bands_)
+    for (const uint32_t part : band.parts) {
+      const uint32_t whole = whole_[part] = findRoot(whole_, part);
+      wholeAreas_[whole] += areas_[part];
+    }
+}
+
+// The first run of a whole precedes its parts: one sweep in raster order sees it first.
 void PixelRuns::numberComponents() {
-  components_.resize(parents_.size());
   componentCount_ = 0;
-  for (uint32_t i = 0; i < count(); ++i) {
-    uint32_t first = parents_[i];
-    if (first == i && areas_[whole_[i]] <= limits_.maxAreaPx) first = whole_[i];
-    components_[i] = first == i ? componentCount_++ : components_[first];
-  }
+  for (const Band& band : bands_)
+    for (const uint32_t part : band.parts) {
+      const uint32_t whole = whole_[part];
+      const bool isCut = wholeAreas_[whole] > limits_.maxAreaPx;
+      components_[part] = isCut || whole == part ? componentCount_++ : components_[whole];
+    }
 }
 
 }  // namespace rg

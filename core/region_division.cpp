@@ -18,36 +18,23 @@ void fillRun(const PixelRun& run, uint16_t value, int width, uint16_t* to) {
 
 }  // namespace
 
-void BorderList::clear() {
-  borders_.clear();
-  recent_.fill(0);
-}
-
-void BorderList::add(uint32_t a, uint32_t b, uint32_t borderPx) {
-  if (a > b) std::swap(a, b);
-  uint32_t& at = recent_[(a * 0x9E3779B1u ^ b * 0x85EBCA77u) >> (32 - kRecentBits)];
-  if (at < borders_.size() && borders_[at].a == a && borders_[at].b == b) {
-    borders_[at].borderPx += borderPx;
-    return;
-  }
-  at = static_cast<uint32_t>(borders_.size());
-  borders_.push_back({a, b, borderPx});
-}
-
 uint32_t RegionDivision::run(const ColourPlanes& planes, const PixelRuns& runs,
                              const Limits& limits, const Executor& executor,
                              ImageView<uint16_t> ids) {
   planes_ = planes;
   runs_ = &runs;
-  sumParts(executor, [this](int y) { addRow(y); });
-  for (uint32_t i = 0; i < runs_->count(); ++i) {
-    if (runs_->part(i) != i) continue;
-    AbsorbedRegion& region = absorption_.regions()[runs_->component(i)];
-    region.red += sums_[i].red;
-    region.green += sums_[i].green;
-    region.blue += sums_[i].blue;
-    region.areaPx += sums_[i].areaPx;
-  }
+  sumParts(executor);
+  std::vector<AbsorbedRegion>& regions = absorption_.regions();
+  regions.assign(runs.componentCount(), {});
+  for (int band = 0; band < runs.bandCount(); ++band)
+    for (const uint32_t part : runs.parts(band)) {
+      AbsorbedRegion& region = regions[runs.component(part)];
+      const Sums& sums = sums_[part];
+      region.red += sums.red;
+      region.green += sums.green;
+      region.blue += sums.blue;
+      region.areaPx += sums.areaPx;
+    }
   return divide(limits, executor, ids);
 }
 
@@ -56,14 +43,16 @@ uint32_t RegionDivision::runAgain(const RegionDivision& first, const ColourPlane
                                   const Executor& executor, ImageView<uint16_t> ids) {
   planes_ = planes;
   runs_ = &runs;
-  sumParts(executor, [&](int y) { addLabels(y, ids.row(y)); });
   std::vector<AbsorbedRegion>& regions = absorption_.regions();
-  for (uint32_t i = 0; i < runs_->count(); ++i) {
-    if (runs_->part(i) != i) continue;
-    AbsorbedRegion& region = regions[runs_->component(i)];
-    region.areaPx += sums_[i].areaPx;
-    region.representative = sums_[i].label;
-  }
+  regions.assign(runs.componentCount(), {});
+  int row = 0;
+  for (int band = 0; band < runs.bandCount(); ++band)
+    for (const uint32_t part : runs.parts(band)) {
+      while (runs.rowStart(row + 1) <= part) ++row;
+      AbsorbedRegion& region = regions[runs.component(part)];
+      region.areaPx += runs.partArea(part);
+      region.representative = ids.row(row)[runs.run(part).first];
+    }
   for (AbsorbedRegion& region : regions) {
     const AbsorbedRegion& whole = first.labelled_[region.representative];
     region.red = whole.red * region.areaPx / whole.areaPx;
@@ -75,7 +64,7 @@ uint32_t RegionDivision::runAgain(const RegionDivision& first, const ColourPlane
 
 uint32_t RegionDivision::divide(const Limits& limits, const Executor& executor,
                                 ImageView<uint16_t> ids) {
-  collectBorders(executor);
+  collectBorders();
   absorption_.run({limits.minAreaPx, limits.maxRegions, static_cast<uint32_t>(planes_.sidePx)});
   const uint32_t count = numberRegions(limits.maxRegions);
   executor.forRows(planes_.size.height, [&](int first, int last) {
@@ -85,24 +74,13 @@ uint32_t RegionDivision::divide(const Limits& limits, const Executor& executor,
 }
 
 // Sums by part first: bands have those of their own.
-void RegionDivision::sumParts(const Executor& executor, const std::function<void(int y)>& addRow) {
+void RegionDivision::sumParts(const Executor& executor) {
   sums_.resize(runs_->count());
   executor.forEach(runs_->bandCount(), [&](int band) {
     const Span rows = runs_->bandRows(band);
-    std::fill(sums_.begin() + runs_->rowStart(rows.first),
-              sums_.begin() + runs_->rowStart(rows.last), Sums{});
+    for (const uint32_t part : runs_->parts(band)) sums_[part] = {};
     for (int y = rows.first; y < rows.last; ++y) addRow(y);
   });
-  absorption_.regions().assign(runs_->componentCount(), {});
-}
-
-void RegionDivision::addLabels(int y, const uint16_t* labels) {
-  for (uint32_t i = runs_->rowStart(y); i < runs_->rowStart(y + 1); ++i) {
-    const PixelRun& run = runs_->run(i);
-    Sums& sums = sums_[runs_->part(i)];
-    sums.areaPx += static_cast<uint32_t>(run.last - run.first);
-    sums.label = labels[run.first];
-  }
 }
 
 void RegionDivision::addRow(int y) {
@@ -130,35 +108,13 @@ void RegionDivision::addRow(int y) {
   }
 }
 
-void RegionDivision::collectBorders(const Executor& executor) {
-  bands_.resize(static_cast<size_t>(runs_->bandCount()));
-  executor.forEach(runs_->bandCount(), [&](int band) {
-    BorderList& borders = bands_[static_cast<size_t>(band)];
-    borders.clear();
-    const Span rows = runs_->bandRows(band);
-    for (int y = rows.first; y < rows.last; ++y) collectBorders(y, borders);
-  });
-  std::vector<AbsorbedBorder>& all = absorption_.borders();
-  all.clear();
-  for (const BorderList& band : bands_)
-    all.insert(all.end(), band.borders().begin(), band.borders().end());
-}
-
-void RegionDivision::collectBorders(int y, BorderList& borders) const {
+void RegionDivision::collectBorders() {
   const auto side = static_cast<uint32_t>(planes_.sidePx);
-  const uint8_t* scope = planes_.scope.data != nullptr ? planes_.scope.row(y) : nullptr;
-  for (uint32_t j = runs_->rowStart(y) + 1; j < runs_->rowStart(y + 1); ++j) {
-    const uint32_t a = runs_->component(j - 1), b = runs_->component(j);
-    const int x = runs_->run(j).first;
-    if (a == b || runs_->run(j - 1).last != x) continue;
-    if (scope == nullptr || scope[x - 1] == scope[x]) borders.add(a, b, side);
-  }
-  if (y == 0) return;
-  const uint8_t* above = scope != nullptr ? planes_.scope.row(y - 1) : nullptr;
-  forOverlaps(*runs_, y, [&](uint32_t i, uint32_t j, int first, int last) {
-    const uint32_t a = runs_->component(i), b = runs_->component(j);
-    if (a == b || (scope != nullptr && above[first] != scope[first])) return;
-    borders.add(a, b, static_cast<uint32_t>(last - first) * side);
+  std::vector<AbsorbedBorder>& borders = absorption_.borders();
+  borders.clear();
+  borders.reserve(runs_->mostBorders() + 1);  // One more, as absorption writes before it decides.
+  runs_->forBorders([&](uint32_t a, uint32_t b, uint32_t pairs) {
+    borders.push_back({a, b, pairs * side});
   });
 }
 

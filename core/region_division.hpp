@@ -12,25 +12,10 @@
 #include "core/image.hpp"
 #include "core/pixel_runs.hpp"
 
-#include <array>
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 namespace rg {
-
-/// Borders as they come, pairs that come again soon joined.
-class BorderList {
- public:
-  void clear();
-  void add(uint32_t a, uint32_t b, uint32_t borderPx);
-  [[nodiscard]] const std::vector<AbsorbedBorder>& borders() const { return borders_; }
-
- private:
-  static constexpr int kRecentBits = 11;
-  std::vector<AbsorbedBorder> borders_;
-  std::array<uint32_t, 1 << kRecentBits> recent_{};  ///< Where pairs of a hash are.
-};
 
 class RegionDivision {
  public:
@@ -52,11 +37,9 @@ class RegionDivision {
 
  private:
   uint32_t divide(const Limits& limits, const Executor& executor, ImageView<uint16_t> ids);
-  void sumParts(const Executor& executor, const std::function<void(int y)>& addRow);
+  void sumParts(const Executor& executor);
   void addRow(int y);
-  void addLabels(int y, const uint16_t* labels);
-  void collectBorders(const Executor& executor);
-  void collectBorders(int y, BorderList& borders) const;
+  void collectBorders();
   uint32_t numberRegions(uint32_t maxRegions);
   void writeRow(int y, uint16_t* ids) const;
 
@@ -65,10 +48,8 @@ class RegionDivision {
   struct Sums {
     uint32_t red = 0, green = 0, blue = 0;  // Of a band's pixels: 255 · 2^14 · 64 < 2^32.
     uint32_t areaPx = 0;
-    uint32_t label = 0;
   };
   std::vector<Sums> sums_;  ///< Of each part, at its first run.
-  std::vector<BorderList> bands_;
   Absorption absorption_;
   std::vector<AbsorbedRegion> labelled_;  ///< What is left, by label.
   std::vector<uint32_t> numbers_;

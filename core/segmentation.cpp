@@ -163,7 +163,7 @@ void CpuSegmentation::divide(const Picture& picture, ImageView<const uint8_t> sc
                     {limits.minAreaPx, std::min<uint32_t>(limits.maxRegions + spare, kMostRegions)},
                     executor, cellIds_);
   borderPixels_.refine(cells_, cellIds_, executor, labels.ids);
-  runs_.build(labels.ids, {}, executor);
+  runs_.build(labels.ids, scope, executor);
   labels.count = division_.runAgain(cellDivision_, cells_.pixels(), runs_,
                                     {limits.minAreaPx, limits.maxRegions}, executor, labels.ids);
 }
