@@ -14,13 +14,12 @@ constexpr int kRounds = 3;
 constexpr int kExpectedBonus = 2;
 
 /// Adds `change` to the claims of the cells inside the box.
-void claim(const Evidence& e, const Box& box, int change, std::vector<uint8_t>& claims) {
+void claim(const Evidence& e, const Box& box, int change, std::vector<uint16_t>& claims) {
   const Box inside = intersect(box, boundsOf(e.grid));
-  for (int y = inside.y; y < inside.bottom(); ++y)
-    for (int x = inside.x; x < inside.right(); ++x) {
-      uint8_t& count = claims[e.at(x, y)];
-      count = static_cast<uint8_t>(std::clamp(count + change, 0, 255));
-    }
+  for (int y = inside.y; y < inside.bottom(); ++y) {
+    uint16_t* row = claims.data() + e.at(inside.x, y);
+    for (int x = 0; x < inside.width; ++x) row[x] = static_cast<uint16_t>(row[x] + change);
+  }
 }
 
 /// What the prediction of the regions says of a cell.
@@ -34,14 +33,25 @@ class ValueSums {
  public:
   ValueSums(const Evidence& e, const FitTask& task, const Box& window, FitScratch& s)
       : window_(window), stride_(window.width + 1), sums_(s.sums) {
-    sums_.assign(static_cast<size_t>(stride_) * static_cast<size_t>(window.height + 1), 0);
-    for (int y = 0; y < window.height; ++y) {
-      int32_t row = 0;
-      for (int x = 0; x < window.width; ++x) {
-        const Point cell{window.x + x, window.y + y};
-        if (boundsOf(e.grid).contains(cell)) row += value(e, task, e.at(cell.x, cell.y), s.claims);
-        at(x + 1, y + 1) = at(x + 1, y) + row;
+    sums_.resize(static_cast<size_t>(stride_) * static_cast<size_t>(window.height + 1));
+    std::fill_n(sums_.begin(), stride_, 0);
+    const Box inside = intersect(window, boundsOf(e.grid));
+    for (int y = window.y; y < window.bottom(); ++y) {
+      const int32_t* above = sums_.data() + (y - window.y) * stride_;
+      int32_t* to = sums_.data() + (y - window.y + 1) * stride_;
+      if (y < inside.y || y >= inside.bottom()) {
+        std::copy_n(above, stride_, to);
+        continue;
       }
+      const int first = inside.x - window.x, last = inside.right() - window.x;
+      const size_t cell = e.at(inside.x, y);
+      int32_t sum = 0;
+      std::copy_n(above, first + 1, to);
+      for (int x = first; x < last; ++x) {
+        sum += value(e, task, cell + static_cast<size_t>(x - first), s.claims);
+        to[x + 1] = above[x + 1] + sum;
+      }
+      for (int x = last; x < window.width; ++x) to[x + 1] = above[x + 1] + sum;
     }
   }
   [[nodiscard]] int32_t inside(const Box& box) const {
@@ -52,12 +62,11 @@ class ValueSums {
 
  private:
   static int value(const Evidence& e, const FitTask& task, size_t cell,
-                   const std::vector<uint8_t>& claims) {
+                   const std::vector<uint16_t>& claims) {
     if (e.group[cell] == 0) return -kBackgroundLoss;
     return claims[cell] > 0 ? 0
                             : kForegroundGain + task.bonus[e.bin[cell]] + trustOf(e, task, cell);
   }
-  int32_t& at(int x, int y) { return sums_[static_cast<size_t>(y * stride_ + x)]; }
   [[nodiscard]] int32_t get(int x, int y) const {
     return sums_[static_cast<size_t>(y * stride_ + x)];
   }
@@ -66,11 +75,16 @@ class ValueSums {
   std::vector<int32_t>& sums_;
 };
 
+/// All that a task may cover.
+Box windowOf(const FitTask& task) {
+  const Box& box = task.expected;
+  return {box.x - task.reachX, box.y - task.reachY, box.width + 2 * task.reachX,
+          box.height + 2 * task.reachY};
+}
+
 Box bestPlace(const Evidence& e, const FitTask& task, FitScratch& s) {
   const Box& box = task.expected;
-  const Box window{box.x - task.reachX, box.y - task.reachY, box.width + 2 * task.reachX,
-                   box.height + 2 * task.reachY};
-  const ValueSums sums(e, task, window, s);
+  const ValueSums sums(e, task, windowOf(task), s);
   const int margin = box.width / 4;
   Box best = box;
   std::tuple<int64_t, int, int, int> bestKey{INT64_MAX, 0, 0, 0};
@@ -95,6 +109,22 @@ Box bestPlace(const Evidence& e, const FitTask& task, FitScratch& s) {
   return best;
 }
 
+void takeTurn(const Evidence& e, std::span<FitTask> tier, size_t index, FitScratch& s) {
+  FitTask& task = tier[index];
+  const Box before = task.fitted;
+  claim(e, before, -1, s.claims);
+  task.fitted = bestPlace(e, task, s);
+  claim(e, task.fitted, 1, s.claims);
+  s.isSettled[index] = 1;
+  if (task.fitted == before) return;
+  for (size_t i = 0; i < tier.size(); ++i) {
+    const Box window = windowOf(tier[i]);
+    const bool isNear =
+        !intersect(window, before).isEmpty() || !intersect(window, task.fitted).isEmpty();
+    if (i != index && isNear) s.isSettled[i] = 0;
+  }
+}
+
 }  // namespace
 
 void fitBoxes(const Evidence& e, std::span<FitTask> tasks, FitScratch& s) {
@@ -106,12 +136,10 @@ void fitBoxes(const Evidence& e, std::span<FitTask> tasks, FitScratch& s) {
       task.fitted = task.expected;
       claim(e, task.fitted, 1, s.claims);
     }
+    s.isSettled.assign(tier.size(), 0);
     for (int round = 0; round < kRounds; ++round)
-      for (FitTask& task : tier) {
-        claim(e, task.fitted, -1, s.claims);
-        task.fitted = bestPlace(e, task, s);
-        claim(e, task.fitted, 1, s.claims);
-      }
+      for (size_t i = 0; i < tier.size(); ++i)
+        if (s.isSettled[i] == 0) takeTurn(e, tier, i, s);
   }
 }
 

@@ -33,8 +33,9 @@ struct FitTask {
 inline constexpr int kMaxBonus = 2;
 
 struct FitScratch {
-  std::vector<uint8_t> claims;  ///< Of each cell: by how many fitted boxes it is covered.
-  std::vector<int32_t> sums;    ///< Summed values of a search window.
+  std::vector<uint16_t> claims;    ///< Of each cell: by how many fitted boxes it is covered.
+  std::vector<int32_t> sums;       ///< Summed values of a search window.
+  std::vector<uint8_t> isSettled;  ///< Of each task: no rival moved in its window since its turn.
 };
 
 /// tasks must be sorted by tier.

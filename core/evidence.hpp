@@ -2,7 +2,7 @@
 // What the tracker looks at: the frame's merged groups on a coarse grid, so that its cost depends
 // on objects rather than on resolution.
 //
-// Determinism: each cell is the sample at its middle; components count in raster order.
+// Determinism: each cell is the sample at its middle.
 #pragma once
 
 #include "core/geometry.hpp"
@@ -48,6 +48,19 @@ struct Evidence {
     for (const RegionRun& run : runs)
       for (int x = run.begin; x < run.end; ++x) visit(at(x, run.y), x, int{run.y});
   }
+  /// Calls visit(part, value) for the longest parts of the runs over which a cell's value is the
+  /// same, in raster order.
+  template <class Visit>
+  void forParts(std::span<const uint16_t> values, Visit&& visit) const {
+    for (const RegionRun& run : runs) {
+      const uint16_t* row = values.data() + at(0, run.y);
+      for (uint16_t begin = run.begin, end = begin; begin < run.end; begin = end) {
+        const uint16_t value = row[begin];
+        while (end < run.end && row[end] == value) ++end;
+        visit(RegionRun{run.y, begin, end}, value);
+      }
+    }
+  }
   /// Sets `runs` to what `group` and `grid` say.
   void listRuns();
 };
@@ -58,32 +71,8 @@ void gather(const Graph& graph, std::span<const uint32_t> groupOf,
             std::span<const uint8_t> isBackground, std::span<const uint32_t> expectedOf,
             Evidence& evidence);
 
-/// An 8-connected set of cells that belong to no track.
-struct Piece {
-  uint32_t cells = 0;
-  Box box;             ///< In cells.
-  uint16_t group = 0;  ///< The largest that it has cells of, as in Evidence.
-};
-
 /// Whether two groups are two things: where movers are shown and they move differently, unless one
 /// is a bit of the other.
 [[nodiscard]] bool areApart(const Evidence& evidence, uint16_t a, uint16_t b);
-
-struct PieceScratch {
-  std::vector<uint32_t> parent;
-  std::vector<uint32_t> label;                          ///< Of each cell: 1 + piece, 0 = none.
-  std::vector<uint32_t> firstColumn, columns, highest;  ///< Of cutPieces().
-  std::vector<Piece> cut;
-};
-
-/// The parts of the foreground whose owner is 0; groups that are apart are not of one part. owner:
-/// for each cell 1 + track or 0; empty: nobody owns anything.
-void findPieces(const Evidence& evidence, std::span<const uint16_t> owner, PieceScratch& scratch,
-                std::vector<Piece>& pieces);
-
-/// Cuts pieces apart, from top to bottom, where two things seem to touch: where a column holds much
-/// less than some on either side. Without a joint a piece keeps its number; parts to the right get
-/// numbers after all pieces.
-void cutPieces(const Evidence& evidence, PieceScratch& scratch, std::vector<Piece>& pieces);
 
 }  // namespace rg

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <span>
 
 namespace rg {
 namespace {
@@ -33,15 +32,11 @@ class ChainSearch {
   }
 
  private:
-  [[nodiscard]] std::span<const WeightedArc> arcsOf(uint32_t node) const {
-    return {s_.neighbours.data() + s_.firstArc[node], s_.neighbours.data() + s_.firstArc[node + 1]};
-  }
-
   /// The groups that `node` could go to, into s_.touched. False if it has no motive to go.
   bool listTargets(uint32_t node) {
     s_.touched.clear();
     bool hasMotive = false;
-    for (const WeightedArc& arc : arcsOf(node)) {
+    for (const WeightedArc& arc : s_.arcsOf(node)) {
       const uint32_t group = groupOf_[arc.b];
       hasMotive |= group == groupOf_[node] ? arc.weight < 0 : arc.weight > 0;
       if (group != groupOf_[node] &&
@@ -56,7 +51,7 @@ class ChainSearch {
 
   [[nodiscard]] int64_t gainOf(uint32_t node, uint32_t to) const {
     int64_t gain = 0;
-    for (const WeightedArc& arc : arcsOf(node)) {
+    for (const WeightedArc& arc : s_.arcsOf(node)) {
       if (groupOf_[arc.b] == to) gain += arc.weight;
       if (groupOf_[arc.b] == groupOf_[node]) gain -= arc.weight;
     }
@@ -73,7 +68,7 @@ class ChainSearch {
   [[nodiscard]] uint32_t bestFollower(size_t length, uint32_t a, uint32_t b, int64_t& gain) const {
     uint32_t best = kNone;
     for (size_t i = 0; i < length; ++i)
-      for (const WeightedArc& arc : arcsOf(chain_[i])) {
+      for (const WeightedArc& arc : s_.arcsOf(chain_[i])) {
         const uint32_t node = arc.b, group = groupOf_[node];
         if ((group != a && group != b) || isInChain(node, length)) continue;
         const int64_t nodeGain = gainOf(node, group == a ? b : a);

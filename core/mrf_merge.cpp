@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/mrf_merge.hpp"
 
+#include "core/forest.hpp"
 #include "core/merge_chains.hpp"
+#include "core/merge_contraction.hpp"
 #include "core/pixel.hpp"
 
 #include <algorithm>
@@ -12,98 +14,11 @@ namespace rg {
 namespace {
 
 constexpr uint32_t kNone = UINT32_MAX;
-constexpr int kMutualRounds =
-    24;  // Random weights need under 20; a chain of rising ones any number.
-constexpr int kMaxRounds = 64;
 constexpr int kMaxSweeps = 12;
 constexpr int kMaxRestarts = 4;
 // A thing inside another has a border of four to five times the root of its area: what clearly
 // moves otherwise has to outweigh that.
 constexpr int kMostExcess = 6;
-
-/// The total order that makes contraction independent of any other: heavier first. The hash keeps
-/// equal weights (a checkerboard) from queueing up along ids, which would cost a round per node.
-bool isBetter(const WeightedArc& p, const WeightedArc& q) {
-  if (p.weight != q.weight) return p.weight > q.weight;
-  return std::tuple(mixHash(p.a, p.b, 1), p.a, p.b) < std::tuple(mixHash(q.a, q.b, 1), q.a, q.b);
-}
-
-void chooseBest(uint32_t nodeCount, MergeScratch& s) {
-  s.best.assign(nodeCount, kNone);
-  for (uint32_t i = 0; i < s.arcs.size(); ++i) {
-    const WeightedArc& arc = s.arcs[i];
-    if (arc.weight <= 0) continue;
-    for (const uint32_t node : {arc.a, arc.b})
-      if (s.best[node] == kNone || isBetter(arc, s.arcs[s.best[node]])) s.best[node] = i;
-  }
-}
-
-/// Makes parent[i] the root of i's tree; parents are never larger than their children.
-void flatten(std::vector<uint32_t>& parent) {
-  for (uint32_t i = 0; i < parent.size(); ++i) parent[i] = parent[parent[i]];
-}
-
-uint32_t rootOf(std::vector<uint32_t>& parent, uint32_t node) {
-  while (parent[node] != node) node = parent[node] = parent[parent[node]];
-  return node;
-}
-
-void join(std::vector<uint32_t>& parent, uint32_t a, uint32_t b) {
-  const uint32_t rootA = rootOf(parent, a), rootB = rootOf(parent, b);
-  parent[std::max(rootA, rootB)] = std::min(rootA, rootB);
-}
-
-/// One round: joins the pairs that choose each other, or (isHooking) everybody with its choice.
-/// Returns false when nothing is left to join.
-bool joinChoices(uint32_t nodeCount, bool isHooking, MergeScratch& s) {
-  chooseBest(nodeCount, s);
-  bool hasJoined = false;
-  s.parent.resize(nodeCount);
-  std::iota(s.parent.begin(), s.parent.end(), 0u);
-  for (uint32_t node = 0; node < nodeCount; ++node) {
-    if (s.best[node] == kNone) continue;
-    const WeightedArc& arc = s.arcs[s.best[node]];
-    if (!isHooking && (node != arc.a || s.best[arc.b] != s.best[node])) continue;
-    join(s.parent, arc.a, arc.b);
-    hasJoined = true;
-  }
-  flatten(s.parent);
-  return hasJoined;
-}
-
-/// Rewrites the arcs between the groups of `parent`, parallel ones added up.
-void contractArcs(MergeScratch& s) {
-  size_t kept = 0;
-  for (const WeightedArc& arc : s.arcs) {
-    const auto [low, high] = std::minmax(s.parent[arc.a], s.parent[arc.b]);
-    if (low != high) s.arcs[kept++] = {low, high, arc.weight};
-  }
-  s.arcs.resize(kept);
-  const auto keyOf = [](const WeightedArc& arc) { return uint64_t{arc.a} << 32 | arc.b; };
-  std::sort(s.arcs.begin(), s.arcs.end(),
-            [&](const WeightedArc& p, const WeightedArc& q) { return keyOf(p) < keyOf(q); });
-  kept = 0;
-  for (const WeightedArc& arc : s.arcs) {
-    if (kept > 0 && s.arcs[kept - 1].a == arc.a && s.arcs[kept - 1].b == arc.b)
-      s.arcs[kept - 1].weight += arc.weight;
-    else
-      s.arcs[kept++] = arc;
-  }
-  s.arcs.resize(kept);
-}
-
-/// Joins groups of `groupOf` (numbers below its size) as long as that keeps more weight.
-void contract(std::span<const WeightedArc> arcs, MergeScratch& s, std::vector<uint32_t>& groupOf) {
-  s.arcs.assign(arcs.begin(), arcs.end());
-  s.parent = groupOf;
-  contractArcs(s);
-  const auto nodeCount = static_cast<uint32_t>(groupOf.size());
-  for (int round = 0; round < kMaxRounds; ++round) {
-    if (!joinChoices(nodeCount, round >= kMutualRounds, s)) return;
-    for (uint32_t& group : groupOf) group = s.parent[group];
-    contractArcs(s);
-  }
-}
 
 void listNeighbours(uint32_t nodeCount, std::span<const WeightedArc> arcs, MergeScratch& s) {
   s.firstArc.assign(nodeCount + 2, 0);
@@ -123,10 +38,10 @@ void listNeighbours(uint32_t nodeCount, std::span<const WeightedArc> arcs, Merge
 uint32_t bestGroup(uint32_t node, uint32_t emptyGroup, const std::vector<uint32_t>& groupOf,
                    MergeScratch& s) {
   s.touched.clear();
-  for (uint32_t i = s.firstArc[node]; i < s.firstArc[node + 1]; ++i) {
-    const uint32_t group = groupOf[s.neighbours[i].b];
+  for (const WeightedArc& arc : s.arcsOf(node)) {
+    const uint32_t group = groupOf[arc.b];
     if (s.pull[group] == 0) s.touched.push_back(group);
-    s.pull[group] += s.neighbours[i].weight;
+    s.pull[group] += arc.weight;
   }
   uint32_t best = groupOf[node];
   int64_t most = s.pull[best];
@@ -150,11 +65,14 @@ bool moveNodes(std::vector<uint32_t>& groupOf, MergeScratch& s) {
   s.groupSize.assign(nodeCount, 0);
   for (const uint32_t group : groupOf) ++s.groupSize[group];
   s.pull.assign(nodeCount, 0);
+  s.isSettled.assign(nodeCount, 0);
   bool hasMoved = false;
   uint32_t empty = 0;
   for (int sweep = 0; sweep < kMaxSweeps; ++sweep) {
     bool isChanged = false;
     for (uint32_t node = 0; node < nodeCount; ++node) {
+      if (s.isSettled[node] != 0) continue;
+      s.isSettled[node] = 1;
       while (empty < nodeCount && s.groupSize[empty] != 0) ++empty;
       const uint32_t from = groupOf[node];
       const uint32_t to = bestGroup(node, empty < nodeCount ? empty : kNone, groupOf, s);
@@ -162,6 +80,7 @@ bool moveNodes(std::vector<uint32_t>& groupOf, MergeScratch& s) {
       if (--s.groupSize[from] == 0) empty = std::min(empty, from);
       ++s.groupSize[to];
       groupOf[node] = to;
+      for (const WeightedArc& arc : s.arcsOf(node)) s.isSettled[arc.b] = 0;
       isChanged = hasMoved = true;
     }
     if (!isChanged) break;
@@ -169,25 +88,24 @@ bool moveNodes(std::vector<uint32_t>& groupOf, MergeScratch& s) {
   return hasMoved;
 }
 
-/// Replaces groups by their connected parts, numbered by their first nodes.
-void splitAndNumber(std::span<const WeightedArc> arcs, MergeScratch& s,
-                    std::vector<uint32_t>& groupOf) {
+/// Replaces groups by their connected parts, numbered by their first nodes. Returns their count.
+uint32_t splitAndNumber(std::span<const WeightedArc> arcs, MergeScratch& s,
+                        std::vector<uint32_t>& groupOf) {
   s.parent.resize(groupOf.size());
   std::iota(s.parent.begin(), s.parent.end(), 0u);
   for (const WeightedArc& arc : arcs)
     if (groupOf[arc.a] == groupOf[arc.b]) join(s.parent, arc.a, arc.b);
-  flatten(s.parent);
-  uint32_t count = 0;
-  for (uint32_t i = 0; i < groupOf.size(); ++i)
-    groupOf[i] = s.parent[i] == i ? count++ : groupOf[s.parent[i]];
+  const uint32_t count = numberSets(s.parent);
+  std::copy(s.parent.begin(), s.parent.end(), groupOf.begin());
+  return count;
 }
 
-void improve(std::span<const WeightedArc> arcs, MergeScratch& s, std::vector<uint32_t>& groupOf) {
-  contract(arcs, s, groupOf);
+void improve(MergeScratch& s, std::vector<uint32_t>& groupOf) {
+  contract(s, groupOf);
   for (int restart = 0; restart < kMaxRestarts; ++restart) {
     const bool hasMoved = moveNodes(groupOf, s);
     if (!moveChains(groupOf, s) && !hasMoved) return;
-    contract(arcs, s, groupOf);
+    contract(s, groupOf);
   }
 }
 
@@ -198,6 +116,7 @@ void weighArcs(const Motion& motion, std::span<const uint32_t> predicted,
   const Graph& graph = *motion.graph;
   const int64_t threshold2 = int64_t{weights.motionThreshold} * weights.motionThreshold;
   energies.clear();
+  energies.reserve(graph.arcs.size());
   for (const Arc& arc : graph.arcs) {
     const uint32_t s = arc.a - 1u, t = arc.b - 1u;
     const RegionMotion &v = motion.regions[s], &u = motion.regions[t];
@@ -219,6 +138,7 @@ void weighArcs(const Motion& motion, std::span<const uint32_t> predicted,
 void listArcs(const Graph& graph, std::span<const ArcEnergy> energies,
               std::vector<WeightedArc>& arcs) {
   arcs.clear();
+  arcs.reserve(graph.arcs.size());
   for (size_t i = 0; i < graph.arcs.size(); ++i)
     arcs.push_back({graph.arcs[i].a - 1u, graph.arcs[i].b - 1u, energies[i].weight()});
 }
@@ -233,16 +153,14 @@ int64_t keptWeight(std::span<const WeightedArc> arcs, std::span<const uint32_t> 
 void minimise(uint32_t nodeCount, std::span<const WeightedArc> arcs, MergeScratch& scratch,
               std::vector<uint32_t>& groupOf) {
   listNeighbours(nodeCount, arcs, scratch);
-  const bool hasStart = groupOf.size() == nodeCount;
-  if (hasStart) {
-    splitAndNumber(arcs, scratch, groupOf);
-    scratch.alternative = groupOf;
-  }
+  const bool hasStart =
+      groupOf.size() == nodeCount && splitAndNumber(arcs, scratch, groupOf) < nodeCount;
+  if (hasStart) scratch.alternative = groupOf;
   groupOf.resize(nodeCount);
   std::iota(groupOf.begin(), groupOf.end(), 0u);
-  improve(arcs, scratch, groupOf);
+  improve(scratch, groupOf);
   if (hasStart) {
-    improve(arcs, scratch, scratch.alternative);
+    improve(scratch, scratch.alternative);
     if (keptWeight(arcs, scratch.alternative) >= keptWeight(arcs, groupOf))
       groupOf.swap(scratch.alternative);
   }

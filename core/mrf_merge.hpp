@@ -41,15 +41,30 @@ struct WeightedArc {
 
 /// Working memory that keeps its capacity from frame to frame.
 struct MergeScratch {
-  std::vector<WeightedArc> arcs;      ///< Between groups, as contraction leaves them.
-  std::vector<uint32_t> best;         ///< For each group the arc that it likes best.
-  std::vector<uint32_t> parent;       ///< For each group what it was merged into.
   std::vector<uint32_t> alternative;  ///< A second partition, to compare with.
   std::vector<uint32_t> firstArc;  ///< Neighbours of node i: firstArc[i] … firstArc[i + 1] − 1.
   std::vector<WeightedArc> neighbours;  ///< a = the node, b = its neighbour.
-  std::vector<int64_t> pull;            ///< Of a node towards each group.
+
+  // Groups while they are contracted, each called by its smallest node.
+  std::vector<uint32_t> groupName;             ///< The smallest of its numbers.
+  std::vector<uint32_t> parent;                ///< What it was merged into.
+  std::vector<uint32_t> best;                  ///< The neighbour that it likes best.
+  std::vector<WeightedArc> links;              ///< As neighbours, of groups.
+  std::vector<uint32_t> linkCount;             ///< Of each node's place in `links`.
+  std::vector<uint32_t> nextPlace, lastPlace;  ///< Of a group.
+  std::vector<uint32_t> linkAt, seen;          ///< Of a neighbour, at a time.
+  std::vector<uint32_t> changed, joined;
+  uint32_t time = 0;
+
+  // The local search.
+  std::vector<int64_t> pull;       ///< Of a node towards each group.
+  std::vector<uint8_t> isSettled;  ///< Of each node: nothing changed around it since its last turn.
   std::vector<uint32_t> groupSize;
   std::vector<uint32_t> touched;
+
+  [[nodiscard]] std::span<const WeightedArc> arcsOf(uint32_t node) const {
+    return {neighbours.data() + firstArc[node], neighbours.data() + firstArc[node + 1]};
+  }
 };
 
 /// Votes for motions of −kReach … kReach px on each axis.
@@ -93,7 +108,7 @@ void listArcs(const Graph& graph, std::span<const ArcEnergy> energies,
 /// Groups the nodes so that keptWeight is as large as contraction by mutual best choice and a local
 /// search make it. If `groupOf` comes with an entry per node, that partition is a second start and
 /// the better end is taken. Every group of the result is connected by arcs.
-/// Time: O(E log E) for each of at most kMaxRounds rounds, and O(E) for each sweep of the search.
+/// Time: O(E) for each round of the contraction and each sweep of the search; both are limited.
 void minimise(uint32_t nodeCount, std::span<const WeightedArc> arcs, MergeScratch& scratch,
               std::vector<uint32_t>& groupOf);
 

@@ -15,6 +15,7 @@
 #include "core/clutter.hpp"
 #include "core/evidence.hpp"
 #include "core/objects.hpp"
+#include "core/pieces.hpp"
 #include "core/scene_scale.hpp"
 
 #include <cstdint>
@@ -124,13 +125,20 @@ struct Majority {
   uint32_t votes = 0;  ///< For `value`, after the second pass.
   uint32_t total = 0;
 
-  void propose(uint32_t candidate) {
+  void propose(uint32_t candidate, uint32_t times) {
     if (lead == 0) value = candidate;
-    lead = candidate == value ? lead + 1 : lead - 1;
+    if (candidate == value) {
+      lead += times;
+    } else if (times <= lead) {
+      lead -= times;
+    } else {
+      value = candidate;
+      lead = times - lead;
+    }
   }
-  void count(uint32_t candidate) {
-    votes += candidate == value;
-    ++total;
+  void count(uint32_t candidate, uint32_t times) {
+    votes += candidate == value ? times : 0;
+    total += times;
   }
 };
 

@@ -10,12 +10,12 @@ namespace {
 // What was seen as one may be hidden in its middle, but not for so long.
 constexpr int64_t kPartedNs = 500'000'000;
 
-/// pairs(f) calls f(key, value) for everything that is counted.
+/// pairs(f) calls f(key, value, times) for everything that is counted.
 template <class Pairs>
 void findMajorities(size_t keys, std::vector<Majority>& result, const Pairs& pairs) {
   result.assign(keys, {});
-  pairs([&](size_t key, uint32_t value) { result[key].propose(value); });
-  pairs([&](size_t key, uint32_t value) { result[key].count(value); });
+  pairs([&](size_t key, uint32_t value, uint32_t times) { result[key].propose(value, times); });
+  pairs([&](size_t key, uint32_t value, uint32_t times) { result[key].count(value, times); });
 }
 
 /// Whether a blob is another thing than the one beside it: about as high, and in other columns.
@@ -110,9 +110,16 @@ void Tracker::reclaimExpected(const Evidence& e) {
 void Tracker::spreadOwners(const Evidence& e) {
   constexpr uint16_t kFar = UINT16_MAX;
   distance_.resize(owner_.size());
-  e.forForeground([&](size_t cell, int, int) { distance_[cell] = owner_[cell] != 0 ? 0 : kFar; });
+  bool isComplete = true;
+  e.forParts(owner_, [&](const RegionRun& part, uint16_t owner) {
+    std::fill_n(distance_.data() + e.at(part.begin, part.y), part.end - part.begin,
+                owner != 0 ? uint16_t{0} : kFar);
+    isComplete = isComplete && owner != 0;
+  });
+  if (isComplete) return;
   const auto take = [&](int direction, int x, int y) {
     const size_t cell = e.at(x, y);
+    if (distance_[cell] == 0) return;
     const Point sources[] = {{-direction, 0}, {-1, -direction}, {0, -direction}, {1, -direction}};
     for (const Point& d : sources) {
       if (!boundsOf(e.grid).contains({x + d.x, y + d.y})) continue;
@@ -133,8 +140,9 @@ void Tracker::spreadOwners(const Evidence& e) {
 /// group belongs to one track. The groups of which a track has most are what is seen of it.
 void Tracker::giveGroups(const Evidence& e, std::span<const Group> groups) {
   const auto vote = [&](auto&& count) {
-    e.forForeground([&](size_t cell, int, int) {
-      if (owner_[cell] != 0) count(e.group[cell] - 1u, owner_[cell]);
+    e.forParts(owner_, [&](const RegionRun& part, uint16_t owner) {
+      if (owner == 0) return;
+      count(e.group[e.at(part.begin, part.y)] - 1u, owner, uint32_t{part.end} - part.begin);
     });
   };
   findMajorities(groups.size(), majorities_, vote);
@@ -160,11 +168,12 @@ void Tracker::giveGroups(const Evidence& e, std::span<const Group> groups) {
     return votes > 0 && (scale_.isUniform() ? 5 * votes >= 3 * cells : 20 * votes >= 19 * cells);
   };
   if (!scale_.isUniform())
-    e.forForeground([&](size_t cell, int x, int y) {
-      if (owner_[cell] == 0 || isOwned(e.group[cell] - 1u)) return;
-      Sighting& s = sightings_[owner_[cell] - 1u];
-      const Box box =
-          intersect({x * e.stepPx, y * e.stepPx, e.stepPx, e.stepPx}, boundsOf(e.frame));
+    e.forParts(owner_, [&](const RegionRun& part, uint16_t owner) {
+      if (owner == 0 || isOwned(e.group[e.at(part.begin, part.y)] - 1u)) return;
+      Sighting& s = sightings_[owner - 1u];
+      const Box box = intersect(
+          {part.begin * e.stepPx, part.y * e.stepPx, (part.end - part.begin) * e.stepPx, e.stepPx},
+          boundsOf(e.frame));
       s.box = unite(s.box, box);
       s.areaPx += static_cast<uint64_t>(box.area());
       s.sumX += box.area() * (2 * box.x + box.width - 1) * 128;

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// First half of the search of core/mrf_merge.hpp: groups that like each other best become one, as
+// long as that keeps more weight.
+//
+// Determinism: the heaviest arc first, then a hash of the two groups, then the groups, each of them
+// called by its smallest number; so the result depends on the graph and the start alone.
+#pragma once
+
+#include "core/mrf_merge.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace rg {
+
+/// Joins groups of `groupOf`, whose numbers are below its size. A joined group keeps the smallest
+/// of its numbers. Needs scratch.firstArc and scratch.neighbours.
+/// Time: O(E) a round; rounds get shorter with the groups that are left.
+void contract(MergeScratch& scratch, std::vector<uint32_t>& groupOf);
+
+}  // namespace rg

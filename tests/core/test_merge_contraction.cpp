@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "core/merge_contraction.hpp"
+#include "core/pixel.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <tuple>
+
+namespace rg {
+namespace {
+
+using Arcs = std::map<std::pair<uint32_t, uint32_t>, int64_t>;
+
+/// Heavier arcs are smaller; equal ones are told apart by a hash of their ends.
+auto keyOf(const Arcs::value_type& arc) {
+  const auto [a, b] = arc.first;
+  return std::tuple(-arc.second, mixHash(a, b, 1), a, b);
+}
+
+/// The arc that each group likes best, if any keeps weight.
+std::map<uint32_t, std::pair<uint32_t, uint32_t>> choices(const Arcs& arcs) {
+  std::map<uint32_t, std::pair<uint32_t, uint32_t>> best;
+  for (const auto& arc : arcs) {
+    if (arc.second <= 0) continue;
+    for (const uint32_t group : {arc.first.first, arc.first.second}) {
+      const auto [at, isNew] = best.try_emplace(group, arc.first);
+      if (!isNew && keyOf(arc) < keyOf(*arcs.find(at->second))) at->second = arc.first;
+    }
+  }
+  return best;
+}
+
+/// Contraction to the letter: all arcs anew in every round.
+std::vector<uint32_t> plainContraction(const std::vector<WeightedArc>& list,
+                                       std::vector<uint32_t> groupOf) {
+  for (int round = 0; round < 64; ++round) {
+    Arcs arcs;
+    for (const WeightedArc& arc : list) {
+      const auto [low, high] = std::minmax(groupOf[arc.a], groupOf[arc.b]);
+      if (low != high) arcs[{low, high}] += arc.weight;
+    }
+    const auto best = choices(arcs);
+    if (best.empty()) break;
+    std::vector<uint32_t> nameOf(groupOf.size());
+    std::iota(nameOf.begin(), nameOf.end(), 0u);
+    for (const auto& [group, pair] : best) {
+      if (round < 24 && (group != pair.first || best.at(pair.second) != pair)) continue;
+      const auto [low, high] = std::minmax(nameOf[pair.first], nameOf[pair.second]);
+      const uint32_t from = high, to = low;
+      std::replace(nameOf.begin(), nameOf.end(), from, to);
+    }
+    for (uint32_t& group : groupOf) group = nameOf[group];
+  }
+  return groupOf;
+}
+
+/// A grid of 4-neighbours with weights of few different values, so that ties decide much.
+std::vector<WeightedArc> gridArcs(uint32_t side, uint32_t seed) {
+  std::vector<WeightedArc> arcs;
+  const auto weightOf = [&](uint32_t a, uint32_t b) {
+    return static_cast<int64_t>(mixHash(a, b, seed) % 7) - 2;
+  };
+  for (uint32_t i = 0; i < side * side; ++i) {
+    if (i % side + 1 < side) arcs.push_back({i, i + 1, weightOf(i, i + 1)});
+    if (i + side < side * side) arcs.push_back({i, i + side, weightOf(i, i + side)});
+  }
+  return arcs;
+}
+
+/// Neighbours of each node as contract() takes them.
+MergeScratch scratchOf(uint32_t nodeCount, const std::vector<WeightedArc>& arcs) {
+  MergeScratch scratch;
+  scratch.firstArc.assign(1, 0);
+  for (uint32_t node = 0; node < nodeCount; ++node) {
+    for (const WeightedArc& arc : arcs) {
+      if (arc.a == node) scratch.neighbours.push_back(arc);
+      if (arc.b == node) scratch.neighbours.push_back({arc.b, arc.a, arc.weight});
+    }
+    scratch.firstArc.push_back(static_cast<uint32_t>(scratch.neighbours.size()));
+  }
+  return scratch;
+}
+
+TEST(MergeContraction, IsThatOfAllArcsInEveryRound) {
+  for (uint32_t seed = 0; seed < 20; ++seed) {
+    const uint32_t side = 2 + seed % 9;
+    const std::vector<WeightedArc> arcs = gridArcs(side, seed);
+    MergeScratch scratch = scratchOf(side * side, arcs);
+    std::vector<uint32_t> alone(side * side), pairs(side * side);
+    std::iota(alone.begin(), alone.end(), 0u);
+    for (uint32_t i = 0; i < pairs.size(); ++i) pairs[i] = (i / 2 * 5 + 3) % (side * side);
+    for (const std::vector<uint32_t>& start : {alone, pairs}) {
+      std::vector<uint32_t> groupOf = start;
+      contract(scratch, groupOf);
+      EXPECT_EQ(groupOf, plainContraction(arcs, start)) << "seed " << seed;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace rg
