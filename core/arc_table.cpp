@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/arc_table.hpp"
 
-#include "core/pixel.hpp"
-
 #include <algorithm>
 #include <numeric>
 #include <utility>
@@ -40,9 +38,11 @@ void ArcTable::add(uint16_t a, uint16_t b, uint32_t borderPx, uint32_t contrast)
   arcs_[slot].contrast += contrast;
 }
 
+// Neighbours have near numbers where there are many regions, and rows follow one another: so what
+// is looked up next lies near what was.
 size_t ArcTable::slotOf(uint32_t key) const {
   const size_t mask = keys_.size() - 1;
-  size_t slot = mixHash(key, 0, 0) & mask;
+  size_t slot = (5 * (key >> 16) + 3 * (key & 0xFFFF)) & mask;
   while (keys_[slot] != 0 && keys_[slot] != key) slot = (slot + 1) & mask;
   return slot;
 }

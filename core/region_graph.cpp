@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cstdlib>
 #include <span>
 #include <utility>
 
@@ -28,11 +30,11 @@ struct RegionSums {
 struct BandSums {
   std::vector<RegionSums> regions;
   ArcTable arcs;
-  /// Where the runs of a row begin, with the width behind the last: one row after another, from
-  /// the one above the band on.
+  /// Where the runs of a row begin, with the width behind the last: one row after another.
   std::vector<uint16_t> begins;
   std::vector<size_t> rows;                 ///< Where the rows begin in `begins`, and its end.
   std::vector<simd::ChannelSums> channels;  ///< Of each run of a row.
+  std::vector<uint64_t> alike;              ///< Bits of the pixels whose upper neighbour is alike.
 };
 
 void add(RegionSums& to, const RegionSums& from) {
@@ -67,8 +69,6 @@ Region describe(const RegionSums& sums) {
 /// Rows first … last − 1: a task's share.
 struct Band {
   int first, last;
-  /// The first row that is looked at.
-  [[nodiscard]] int above() const { return std::max(first - 1, 0); }
 };
 
 class GraphBuilder {
@@ -76,18 +76,16 @@ class GraphBuilder {
   GraphBuilder(const Labels& labels, Connectivity connectivity)
       : labels_(labels),
         planes_{labels.picture->red(), labels.picture->green(), labels.picture->blue()},
-        channels_(labels.picture->isGrey() ? 1 : 3),
         connectivity_(connectivity) {}
 
   void addRows(const Band& band, BandSums& sums) const {
-    const auto rows = static_cast<size_t>(band.last - band.above());
+    const auto rows = static_cast<size_t>(band.last - band.first);
     sums.begins.resize(rows * (static_cast<size_t>(labels_.size.width) + 1));
     sums.rows.assign(1, 0);
-    for (int y = band.above(); y < band.last; ++y) {
+    for (int y = band.first; y < band.last; ++y) {
       findRuns(y, sums);
-      if (y < band.first) continue;
       addRuns(y, runsOf(y, band, sums), sums);
-      if (y > 0) addArcsAbove(y, runsOf(y, band, sums), runsOf(y - 1, band, sums), sums.arcs);
+      if (y > 0) addArcsAbove(y, sums);
     }
   }
 
@@ -104,9 +102,6 @@ class GraphBuilder {
   }
 
  private:
-  /// By how much the pixel above is shifted against the lower one of a pair.
-  using Lean = int;
-
   void findRuns(int y, BandSums& sums) const {
     uint16_t* begins = sums.begins.data() + sums.rows.back();
     const int runs = simd::findRuns(labels_.ids.row(y), labels_.size.width, begins);
@@ -114,23 +109,23 @@ class GraphBuilder {
   }
 
   static std::span<const uint16_t> runsOf(int y, const Band& band, const BandSums& sums) {
-    const auto row = static_cast<size_t>(y - band.above());
+    const auto row = static_cast<size_t>(y - band.first);
     return std::span(sums.begins).subspan(sums.rows[row], sums.rows[row + 1] - sums.rows[row]);
   }
 
   void addRuns(int y, std::span<const uint16_t> begins, BandSums& sums) const {
     const uint16_t* ids = labels_.ids.row(y);
     const size_t count = begins.size() - 1;
+    const simd::ChannelRows row = rowsOf(y);
     sums.channels.resize(count);
-    simd::sumRuns({{planes_[0].row(y), planes_[1].row(y), planes_[2].row(y)}}, begins.data(),
-                  static_cast<int>(count), sums.channels.data());
+    simd::sumRuns(row, begins.data(), static_cast<int>(count), sums.channels.data());
     for (size_t i = 0; i < count; ++i) {
       const int first = begins[i], last = begins[i + 1];
       const uint16_t label = ids[first];
       if (label == kNoRegion) continue;
       addRun(y, first, last, sums.channels[i], sums.regions[label - 1u]);
       if (i + 1 < count && ids[last] != kNoRegion)
-        sums.arcs.add(label, ids[last], 1, contrast({last - 1, y}, {last, y}));
+        sums.arcs.add(label, ids[last], 1, contrast(row, last - 1, row, last));
     }
   }
 
@@ -142,46 +137,55 @@ class GraphBuilder {
                channels.sums[2], static_cast<uint32_t>(length), first, last, y, y + 1, 1});
   }
 
-  void addArcsAbove(int y, std::span<const uint16_t> lower, std::span<const uint16_t> upper,
-                    ArcTable& arcs) const {
-    addArcs(y, 0, lower, upper, arcs);
+  void addArcsAbove(int y, BandSums& sums) const {
+    addArcs(y, 0, sums);
     if (connectivity_ == Connectivity::Four) return;
-    addArcs(y, -1, lower, upper, arcs);
-    addArcs(y, 1, lower, upper, arcs);
+    addArcs(y, -1, sums);
+    addArcs(y, 1, sums);
   }
 
-  /// Walks the pieces of the row over which neither the run nor the one above changes.
-  void addArcs(int y, Lean lean, std::span<const uint16_t> lower, std::span<const uint16_t> upper,
-               ArcTable& arcs) const {
-    const uint16_t *ids = labels_.ids.row(y), *idsAbove = labels_.ids.row(y - 1);
-    const int end = labels_.size.width - std::max(lean, 0);
-    size_t i = 0, j = 0;
-    for (int x = std::max(-lean, 0); x < end;) {
-      while (lower[i + 1] <= x) ++i;
-      while (upper[j + 1] <= x + lean) ++j;
-      const int next = std::min({int{lower[i + 1]}, upper[j + 1] - lean, end});
-      const uint16_t label = ids[x], other = idsAbove[x + lean];
-      if (label != other && label != kNoRegion && other != kNoRegion) {
-        uint32_t sum = 0;
-        for (int p = x; p < next; ++p) sum += contrast({p, y}, {p + lean, y - 1});
-        arcs.add(label, other, static_cast<uint32_t>(next - x), sum);
+  /// lean: by how much the pixel above is shifted against the lower one of a pair. Only where the
+  /// labels differ is looked at pixel by pixel; pairs of the same two regions in a row make one.
+  void addArcs(int y, int lean, BandSums& sums) const {
+    constexpr int kWordBits = 64;
+    const int first = std::max(-lean, 0);
+    const int count = labels_.size.width - std::abs(lean);
+    if (count <= 0) return;
+    const uint16_t *ids = labels_.ids.row(y) + first, *idsAbove = labels_.ids.row(y - 1);
+    idsAbove += first + lean;
+    const simd::ChannelRows row = rowsOf(y), above = rowsOf(y - 1);
+    sums.alike.resize(static_cast<size_t>((count + kWordBits - 1) / kWordBits));
+    simd::compareLabels(ids, idsAbove, count, sums.alike.data());
+    Arc arc;
+    for (int start = 0; start < count; start += kWordBits) {
+      uint64_t differing = ~sums.alike[static_cast<size_t>(start / kWordBits)];
+      if (count - start < kWordBits) differing &= ~(~uint64_t{0} << (count - start));
+      for (; differing != 0; differing &= differing - 1) {
+        const int x = start + std::countr_zero(differing);
+        if (ids[x] == kNoRegion || idsAbove[x] == kNoRegion) continue;
+        if (ids[x] != arc.a || idsAbove[x] != arc.b) {
+          if (arc.borderPx > 0) sums.arcs.add(arc.a, arc.b, arc.borderPx, arc.contrast);
+          arc = {ids[x], idsAbove[x], 0, 0};
+        }
+        ++arc.borderPx;
+        arc.contrast += contrast(row, first + x, above, first + x + lean);
       }
-      x = next;
     }
+    if (arc.borderPx > 0) sums.arcs.add(arc.a, arc.b, arc.borderPx, arc.contrast);
   }
 
-  uint32_t contrast(Point p, Point q) const {
-    int largest = 0;
-    for (int c = 0; c < channels_; ++c) {
-      const ImageView<const uint8_t>& plane = planes_[static_cast<size_t>(c)];
-      largest = std::max(largest, absDiff(plane.row(p.y)[p.x], plane.row(q.y)[q.x]));
-    }
-    return static_cast<uint32_t>(largest);
+  [[nodiscard]] simd::ChannelRows rowsOf(int y) const {
+    return {{planes_[0].row(y), planes_[1].row(y), planes_[2].row(y)}};
+  }
+
+  /// Of pixel p of a row and pixel q of another. The planes of a grey picture are one.
+  static uint32_t contrast(const simd::ChannelRows& a, int p, const simd::ChannelRows& b, int q) {
+    const auto of = [&](int c) { return absDiff(a.rows[c][p], b.rows[c][q]); };
+    return static_cast<uint32_t>(std::max({of(0), of(1), of(2)}));
   }
 
   const Labels& labels_;
   const std::array<ImageView<const uint8_t>, 3> planes_;
-  const int channels_;
   const Connectivity connectivity_;
 };
 
