@@ -8,9 +8,11 @@
 // Determinism: integers; the previous picture is sampled at 1/256 px, rounded down.
 #pragma once
 
-#include "core/block_matching.hpp"
+#include "core/matched_blocks.hpp"
+#include "core/padded_luma.hpp"
 
 #include <cstdint>
+#include <span>
 
 namespace rg {
 

@@ -4,9 +4,9 @@
 #pragma once
 
 #include "core/region_motion.hpp"
+#include "core/shift_search.hpp"
 
 #include <cstdint>
-#include <span>
 
 namespace rg {
 
@@ -17,20 +17,10 @@ struct GradientSums {
   uint64_t pixels = 0;
 };
 
-inline void add(GradientSums& to, const GradientSums& from) {
-  to.xx += from.xx;
-  to.xy += from.xy;
-  to.yy += from.yy;
-  to.pixels += from.pixels;
-}
-
-/// The best whole-pixel shift of those within maxShift, which is less than `reach`: the ring of
-/// shifts beyond tells a motion on the border of the search, which can be relied on, from one that
-/// goes further. sums: of all shifts within `reach`, as core/block_matching.hpp orders them. Where
-/// nothing changed the shifts farther than 1 px don't count: the result is the same for any reach.
-[[nodiscard]] RegionMotion estimateMotion(std::span<const uint32_t> sums, int reach, int maxShift,
-                                          const GradientSums& gradients);
-[[nodiscard]] RegionMotion estimateMotion(std::span<const uint64_t> sums, int reach, int maxShift,
-                                          const GradientSums& gradients);
+/// What is said of the best whole-pixel shift. The ring of shifts beyond those that could be found
+/// tells a motion on the border of the search, which can be relied on, from one that goes further.
+/// Where nothing changed the shifts farther than 1 px don't count: the result is the same for any
+/// reach.
+[[nodiscard]] RegionMotion estimateMotion(const FoundShift& found, const GradientSums& gradients);
 
 }  // namespace rg

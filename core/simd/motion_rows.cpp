@@ -39,6 +39,16 @@ void warpRow(const WarpRow& row, int count, uint8_t* HWY_RESTRICT to) {
   }
 }
 
+// First down, then across, where no sum is overwritten that is still needed.
+void sumBoxRow(const BoxRows& from, int count, uint16_t* HWY_RESTRICT to) {
+  const uint8_t *HWY_RESTRICT a = from.rows[0], *HWY_RESTRICT b = from.rows[1],
+                              *HWY_RESTRICT c = from.rows[2], *HWY_RESTRICT d = from.rows[3];
+  const int columns = count + 3;
+  for (int i = 0; i < columns; ++i) to[i] = static_cast<uint16_t>(a[i] + b[i] + c[i] + d[i]);
+  for (int i = 0; i < count; ++i)
+    to[i] = static_cast<uint16_t>(to[i] + to[i + 1] + to[i + 2] + to[i + 3]);
+}
+
 uint32_t difference(uint8_t a, uint8_t b) {
   const int d = a - b;
   return static_cast<uint32_t>(d < 0 ? -d : d);
@@ -74,6 +84,7 @@ namespace rg::simd {
 namespace {
 HWY_EXPORT(smoothRow);
 HWY_EXPORT(warpRow);
+HWY_EXPORT(sumBoxRow);
 HWY_EXPORT(sumDifferences);
 HWY_EXPORT(isAnySet);
 HWY_EXPORT(raiseRow);
@@ -85,6 +96,10 @@ void smoothRow(const ThreeRows& rows, int count, uint8_t* to) {
 
 void warpRow(const WarpRow& row, int count, uint8_t* to) {
   HWY_DYNAMIC_DISPATCH(warpRow)(row, count, to);
+}
+
+void sumBoxRow(const BoxRows& from, int count, uint16_t* to) {
+  HWY_DYNAMIC_DISPATCH(sumBoxRow)(from, count, to);
 }
 
 DifferenceSums sumDifferences(const ComparedRows& rows, int count) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// The loops over one row that core/own_motion.cpp and core/motion_refinement.cpp are made of,
+// The loops over one row that core/own_motion.cpp, core/motion_refinement.cpp and
+// core/padded_luma.cpp are made of,
 // compiled for every instruction set.
 //
 // Each is written once, in plain integer arithmetic on independent pixels; the compiler makes the
@@ -25,6 +26,12 @@ struct WarpRow {
   int right, low;
 };
 void warpRow(const WarpRow& row, int count, uint8_t* to);
+
+/// to[i] = the sum of the boxes of 4x4 pixels from [i] on of four rows; they have 3 more columns.
+struct BoxRows {
+  const uint8_t* rows[4];
+};
+void sumBoxRow(const BoxRows& from, int count, uint16_t* to);
 
 /// Sums of |now − still| and |now − moved|.
 struct DifferenceSums {

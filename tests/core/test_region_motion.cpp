@@ -127,8 +127,7 @@ TEST(RegionMotion, EqualsASearchOfAllShiftsOnTinyFrames) {
       {19, 1}, 3, [](int x, int) { return 1 + x / 7; }, 64);
 }
 
-// More cells than one batch of sums holds.
-TEST(RegionMotion, SumsOfALargeRegionAreCarriedFromBatchToBatch) {
+TEST(RegionMotion, FindsFarShiftsOfLargeRegions) {
   const Size size{560, 460};
   const LabelAt halves = [](int x, int y) {
     return x < 70 || x >= 490 || y < 70 || y >= 400 ? 0 : x < 90 ? 1 : 2;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The SIMD functions of stages 2 and 4 against plain ones, and the stages as a whole: every target
 // of this machine, one to four threads, odd sizes, guard bytes, fills that provoke overflows.
-#include "core/block_matching.hpp"
 #include "core/objects.hpp"
 #include "core/pixel.hpp"
 #include "core/row_spans.hpp"
@@ -45,50 +44,6 @@ Image<uint8_t> filled(Size size, int fill) {
   for (int y = 0; y < size.height; ++y)
     for (int x = 0; x < size.width; ++x) image.at(x, y) = static_cast<uint8_t>(levelAt(fill, x, y));
   return image;
-}
-
-/// Parts in all corners of the picture and with all kinds of gaps.
-std::vector<MatchedPart> somePartsOf(Size size) {
-  std::vector<MatchedPart> parts;
-  for (int y = 0; y < size.height; y += kPartHeight)
-    for (int x = 0; x + kBlockWidth <= size.width; x += kPartWidth) {
-      const uint32_t hash = hashOf(x, y, 4);
-      uint64_t blocks = hash % 3 == 0   ? ~uint64_t{0}
-                        : hash % 3 == 1 ? uint64_t{1} << hash % 64
-                                        : uint64_t{hash} << 32 | hashOf(x, y, 5);
-      if (const int rows = size.height - y; rows < kPartHeight)
-        blocks &= (uint64_t{1} << (2 * rows)) - 1;
-      if (x + kPartWidth > size.width) blocks &= 0x5555555555555555;
-      if (blocks != 0)
-        parts.push_back({blocks, static_cast<uint16_t>(x / kPartWidth),
-                         static_cast<uint16_t>(y / kPartHeight), 1});
-    }
-  return parts;
-}
-
-TEST(SimdBlocks, MatchingIsThePlainOne) {
-  struct Case {
-    Size size;
-    int padding, reach;
-  };
-  for (const Case& c : {Case{{4, 1}, 3, 3}, Case{{21, 65}, 20, 20}, Case{{47, 33}, 8, 7},
-                        Case{{257, 5}, 16, 16}, Case{{12, 9}, 65, 65}, Case{{13, 9}, 20, 1}})
-    for (int fill = 0; fill < kFills; ++fill) {
-      const Image<uint8_t> current = filled(c.size, fill);
-      PaddedLuma previous;
-      previous.build(filled(c.size, (fill + 1) % kFills), c.padding, Executor(1));
-      const Search search{previous, c.reach};
-      const auto parts = somePartsOf(c.size);
-      const auto count = static_cast<size_t>(shiftCount(c.reach));
-      std::vector<uint32_t> expected(count + 16, 7);
-      addPartsPlainly(parts, current, search, std::span(expected).first(count));
-      test::forEachTarget([&] {
-        std::vector<uint32_t> sums(count + 16, 7);
-        MatchScratch scratch;
-        addParts(parts, current, search, scratch, std::span(sums).first(count));
-        EXPECT_EQ(sums, expected) << c.size.width << " wide, fill " << fill;
-      });
-    }
 }
 
 /// Bytes of a row with guards behind them.

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "core/block_matching.hpp"
+#include "core/padded_luma.hpp"
 
-#include "core/pixel.hpp"
+#include "core/simd/motion_rows.hpp"
 
 #include <algorithm>
 #include <cstring>
+#include <span>
 
 namespace rg {
 namespace {
@@ -14,16 +15,6 @@ void padRow(const uint8_t* from, int width, int before, std::span<uint8_t> to) {
   std::memcpy(to.data() + before, from, static_cast<size_t>(width));
   const auto end = static_cast<size_t>(before + width);
   std::memset(to.data() + end, from[width - 1], to.size() - end);
-}
-
-void addBlockPlainly(const uint8_t* block, const Search& search, Point at, uint32_t* sums) {
-  const int reach = search.reach;
-  for (int ey = -reach; ey <= reach; ++ey)
-    for (int ex = -reach; ex <= reach; ++ex, ++sums) {
-      const uint8_t* before = search.previous.along(at.x + ex, at.y + ey);
-      for (int i = 0; i < kBlockWidth; ++i)
-        *sums += static_cast<uint32_t>(absDiff(block[i], before[i]));
-    }
 }
 
 }  // namespace
@@ -38,12 +29,21 @@ void PaddedLuma::build(ImageView<const uint8_t> luma, int reach, const Executor&
   });
 }
 
-void addPartsPlainly(std::span<const MatchedPart> parts, ImageView<const uint8_t> luma,
-                     const Search& search, std::span<uint32_t> sums) {
-  for (const MatchedPart& part : parts)
-    forBlocks(part, [&](int x, int y) {
-      addBlockPlainly(luma.row(y) + x, search, {x, y}, sums.data());
-    });
+void BoxSums::build(const PaddedLuma& luma, const Executor& executor) {
+  const ImageView<const uint8_t> from = luma.rows();
+  reach_ = luma.reach();
+  rows_.resize(from.size);
+  const int last = from.height() - kBoxSide, columns = from.width() - kBoxSide + 1;
+  executor.forRows(from.height(), [&](int first, int end) {
+    for (int y = first; y < end; ++y) {
+      uint16_t* to = rows_.row(y);
+      if (y <= last)
+        simd::sumBoxRow({{from.row(y), from.row(y + 1), from.row(y + 2), from.row(y + 3)}}, columns,
+                        to);
+      const int summed = y <= last ? columns : 0;
+      std::fill_n(to + summed, from.width() - summed, uint16_t{0});
+    }
+  });
 }
 
 }  // namespace rg
