@@ -134,9 +134,11 @@ void Canvas::arrow(Point from, Point to, const Colour& colour) {
   cv::arrowedLine(pixels_, at(from), at(to), ink(colour), style_.linePx, cv::LINE_AA, 0, tip);
 }
 
-void Canvas::disc(Point centre, int radius, const Colour& colour) {
-  cv::circle(pixels_, at(centre), radius + std::max(1, style_.rimPx), rim(), cv::FILLED,
+void Canvas::disc(Point centre, int radius, const Colour& colour, const Colour& ring) {
+  const int ringPx = std::max(1, style_.linePx / 2), outer = radius + ringPx;
+  cv::circle(pixels_, at(centre), outer + std::max(1, style_.rimPx), rim(), cv::FILLED,
              cv::LINE_AA);
+  cv::circle(pixels_, at(centre), outer, ink(ring), cv::FILLED, cv::LINE_AA);
   cv::circle(pixels_, at(centre), radius, ink(colour), cv::FILLED, cv::LINE_AA);
 }
 

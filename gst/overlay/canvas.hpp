@@ -30,7 +30,8 @@ class Canvas {
   void box(const Box& whole, const Colour& colour, Stroke stroke);
   void path(std::span<const Point> points, const Colour& colour, Ends ends);
   void arrow(Point from, Point to, const Colour& colour);
-  void disc(Point centre, int radius, const Colour& colour);
+  /// With a ring round it, in a colour that shows where the disc's own doesn't.
+  void disc(Point centre, int radius, const Colour& colour, const Colour& ring);
   /// Text on a ground of the colour; `corner` is the ground's left upper one.
   void label(Point corner, const std::string& text, const Colour& colour);
 

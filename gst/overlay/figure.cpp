@@ -5,6 +5,7 @@
 #include "core/text/names.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 
 namespace rg::overlay {
@@ -34,14 +35,13 @@ void writeLabel(const Object& object, const Style& style, std::string& label) {
   label += text::name(object.state);
 }
 
-bool isFree(const Box& place, std::span<const Box> taken) {
-  return std::none_of(taken.begin(), taken.end(),
-                      [&](const Box& other) { return !intersect(place, other).isEmpty(); });
+bool covers(const Box& place, const Box& other) {
+  return !intersect(place, other).isEmpty();
 }
 
-/// Around the object's box or inside: the first place that lies in the frame and covers no other
-/// label. Where there is none, above, moved into the frame.
-Box placeLabel(const Box& box, Size label, Size frame, std::span<const Box> taken) {
+/// Where the label of figure i may lie: around its box or inside.
+std::array<Box, 8> placesFor(const Figure& figure, Size label) {
+  const Box& box = figure.box;
   const Point corners[] = {{box.x, box.y - label.height},
                            {box.x, box.bottom()},
                            {box.right() - label.width, box.y - label.height},
@@ -50,13 +50,34 @@ Box placeLabel(const Box& box, Size label, Size frame, std::span<const Box> take
                            {box.x, box.y - 2 * label.height},
                            {box.x, box.bottom() + label.height},
                            {box.x, box.y}};
-  for (const Point& corner : corners) {
-    const Box place{corner.x, corner.y, label.width, label.height};
-    if (intersect(place, boundsOf(frame)) == place && isFree(place, taken)) return place;
+  std::array<Box, 8> places;
+  for (size_t i = 0; i < places.size(); ++i)
+    places[i] = {corners[i].x, corners[i].y, label.width, label.height};
+  return places;
+}
+
+/// Of label i, by the labels before it. Where there is no place: above, moved into the frame.
+Box placeLabel(std::span<const Figure> figures, size_t i, Size label, Size frame) {
+  const std::array<Box, 8> places = placesFor(figures[i], label);
+  const auto isFree = [&](const Box& place) {
+    return intersect(place, boundsOf(frame)) == place &&
+           std::none_of(figures.begin(), figures.begin() + static_cast<ptrdiff_t>(i),
+                        [&](const Figure& other) { return covers(place, other.label); });
+  };
+  const auto hidesNothing = [&](const Box& place) {
+    return std::none_of(figures.begin(), figures.end(),
+                        [&](const Figure& other) { return covers(place, other.box); });
+  };
+  const Box* second = nullptr;
+  for (const Box& place : places) {
+    if (!isFree(place)) continue;
+    if (hidesNothing(place)) return place;
+    if (second == nullptr) second = &place;
   }
-  return {std::clamp(box.x, 0, std::max(0, frame.width - label.width)),
-          std::clamp(box.y - label.height, 0, std::max(0, frame.height - label.height)),
-          label.width, label.height};
+  if (second != nullptr) return *second;
+  return {std::clamp(places[0].x, 0, std::max(0, frame.width - label.width)),
+          std::clamp(places[0].y, 0, std::max(0, frame.height - label.height)), label.width,
+          label.height};
 }
 
 Box hullOf(std::span<const Point> points) {
@@ -74,23 +95,19 @@ bool hasArrow(const Figure& figure, const Layout& layout) {
 
 }  // namespace
 
-void layOut(const Object& object, const Layout& layout, const Trails& trails,
-            std::vector<Box>& labels, Figure& figure) {
+void layOut(const Object& object, const Layout& layout, const Trails& trails, Figure& figure) {
   const FrameMap& map = layout.map;
   figure.colour = colourOf(object.id);
   figure.stroke = strokeOf(object.state);
   figure.box = map.box(object.box);
   figure.centre = fromFine(object.centroidX, object.centroidY, map);
   figure.tip = figure.centre;
-  if (object.hasSpeed)
+  // What has stopped goes nowhere, whatever its outline does.
+  if (object.hasSpeed && object.state != ObjectState::Stopped)
     figure.tip = fromFine(int64_t{object.centroidX} + object.speedX / 2,
                           int64_t{object.centroidY} + object.speedY / 2, map);
   figure.text.clear();
-  if (layout.parts.ids) {
-    writeLabel(object, layout.style, figure.text);
-    figure.label = placeLabel(figure.box, labelSize(figure.text, layout.style), map.to, labels);
-    labels.push_back(figure.label);
-  }
+  if (layout.parts.ids) writeLabel(object, layout.style, figure.text);
   figure.trail.clear();
   if (layout.parts.trails) {
     trails.copy(object, figure.trail);
@@ -99,6 +116,13 @@ void layOut(const Object& object, const Layout& layout, const Trails& trails,
   figure.contour.clear();
   if (layout.parts.contours)
     for (const Point& point : object.contour) figure.contour.push_back(map.point(point));
+}
+
+void placeLabels(std::span<Figure> figures, const Layout& layout) {
+  if (!layout.parts.ids) return;
+  for (size_t i = 0; i < figures.size(); ++i)
+    figures[i].label =
+        placeLabel(figures, i, labelSize(figures[i].text, layout.style), layout.map.to);
 }
 
 Box extentOf(const Figure& figure, const Layout& layout) {
@@ -112,7 +136,6 @@ Box extentOf(const Figure& figure, const Layout& layout) {
     extent = unite(extent, inflate(hullOf(ends), 5 * linePx));
   }
   if (!extent.isEmpty()) extent = inflate(extent, 3 * linePx);
-  if (!figure.text.empty()) extent = unite(extent, figure.label);
   return intersect(extent, boundsOf(layout.map.to));
 }
 
@@ -121,6 +144,9 @@ void draw(const Figure& figure, const Layout& layout, Canvas& canvas) {
   if (!figure.contour.empty()) canvas.path(figure.contour, figure.colour, Ends::Closed);
   if (layout.parts.boxes) canvas.box(figure.box, figure.colour, figure.stroke);
   if (hasArrow(figure, layout)) canvas.arrow(figure.centre, figure.tip, figure.colour);
+}
+
+void drawLabel(const Figure& figure, Canvas& canvas) {
   if (!figure.text.empty())
     canvas.label({figure.label.x, figure.label.y}, figure.text, figure.colour);
 }

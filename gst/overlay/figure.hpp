@@ -8,6 +8,7 @@
 #include "gst/overlay/style.hpp"
 #include "gst/overlay/trails.hpp"
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -30,7 +31,7 @@ struct Figure {
   Box box;
   Point centre;
   Point tip;  ///< Where it will be in half a second; the centre where it has no speed.
-  Box label;  ///< Ground of the text.
+  Box label;  ///< Ground of the text, which is drawn over all figures.
   std::string text;
   std::vector<Point> trail;
   std::vector<Point> contour;
@@ -44,13 +45,16 @@ struct Layout {
 };
 
 /// Lays an object out; `figure` keeps its memory. What the parts leave out is left empty.
-/// labels: the grounds of the labels so far, which this one keeps clear of if it can; it is added.
-void layOut(const Object& object, const Layout& layout, const Trails& trails,
-            std::vector<Box>& labels, Figure& figure);
+void layOut(const Object& object, const Layout& layout, const Trails& trails, Figure& figure);
 
-/// The part of the frame that the figure touches, lines' thickness included.
+/// Finds a place in the frame for each label: clear of those before it and, if there is such a
+/// place, of all boxes.
+void placeLabels(std::span<Figure> figures, const Layout& layout);
+
+/// The part of the frame that the figure touches, lines' thickness included, the label not.
 [[nodiscard]] Box extentOf(const Figure& figure, const Layout& layout);
 
 void draw(const Figure& figure, const Layout& layout, Canvas& canvas);
+void drawLabel(const Figure& figure, Canvas& canvas);
 
 }  // namespace rg::overlay

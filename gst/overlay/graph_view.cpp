@@ -45,9 +45,12 @@ void drawArcs(const Scene& scene, const FrameMap& map, Canvas& canvas) {
 
 void drawNodes(const Scene& scene, const FrameMap& map, Canvas& canvas) {
   const int least = canvas.style().linePx + 1;
-  for (const Region& region : scene.graph->regions) {
+  for (size_t i = 0; i < scene.graph->regions.size(); ++i) {
+    const Region& region = scene.graph->regions[i];
     const auto side = static_cast<int>(integerSqrt(static_cast<uint64_t>(map.area(region.areaPx))));
-    canvas.disc(centreOf(region, map), std::clamp(side / 8, least, 3 * least), region.colour);
+    const uint64_t object = objectOf(static_cast<uint16_t>(i + 1), scene);
+    canvas.disc(centreOf(region, map), std::clamp(side / 8, least, 3 * least), region.colour,
+                object != 0 ? colourOf(object) : kBetweenObjects);
   }
 }
 

@@ -29,6 +29,10 @@ GstBuffer* wrap(const Block& block) {
   return buffer;
 }
 
+Box labelExtent(const Figure& figure, const Layout& layout) {
+  return figure.text.empty() ? Box{} : intersect(figure.label, boundsOf(layout.map.to));
+}
+
 }  // namespace
 
 void Painter::follow(const Objects& objects, int64_t nowNs, double trailLengthS) {
@@ -39,6 +43,7 @@ CompositionPtr Painter::paint(const Scene& scene, const Views& views) {
   const Layout layout = layOutAll(scene, views);
   int64_t sum = 0;
   for (const Box& extent : extents_) sum += extent.area();
+  for (const Figure& figure : figures()) sum += labelExtent(figure, layout).area();
   if (hasGraphView(scene, views) || sum > scene.frame.area())
     paintWhole(scene, views, layout);
   else
@@ -51,22 +56,23 @@ Layout Painter::layOutAll(const Scene& scene, const Views& views) {
   const Layout layout{mapBetween(madeFor, scene.frame), views, styleFor(scene.frame, views.scale)};
   figureCount_ = 0;
   extents_.clear();
-  labels_.clear();
   if (!scene.objects || !views.any()) return layout;
   for (const Object& object : scene.objects->objects) {
     if (!isListed(object.state)) continue;
     if (figureCount_ == figures_.size()) figures_.emplace_back();
     Figure& figure = figures_[figureCount_++];
-    layOut(object, layout, trails_, labels_, figure);
+    layOut(object, layout, trails_, figure);
     extents_.push_back(extentOf(figure, layout));
   }
+  placeLabels(figures(), layout);
   return layout;
 }
 
 void Painter::paintWhole(const Scene& scene, const Views& views, const Layout& layout) {
   Canvas canvas = addRectangle(boundsOf(scene.frame), layout.style);
   drawGraphView(scene, views, canvas);
-  for (size_t i = 0; i < figureCount_; ++i) draw(figures_[i], layout, canvas);
+  for (const Figure& figure : figures()) draw(figure, layout, canvas);
+  for (const Figure& figure : figures()) drawLabel(figure, canvas);
 }
 
 void Painter::paintEach(const Layout& layout) {
@@ -74,6 +80,12 @@ void Painter::paintEach(const Layout& layout) {
     if (extents_[i].isEmpty()) continue;
     Canvas canvas = addRectangle(extents_[i], layout.style);
     draw(figures_[i], layout, canvas);
+  }
+  for (const Figure& figure : figures()) {
+    const Box extent = labelExtent(figure, layout);
+    if (extent.isEmpty()) continue;
+    Canvas canvas = addRectangle(extent, layout.style);
+    drawLabel(figure, canvas);
   }
 }
 

@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace rg::overlay {
@@ -37,8 +38,9 @@ struct Unref {
 };
 using CompositionPtr = std::unique_ptr<GstVideoOverlayComposition, Unref>;
 
-/// Draws each object on a rectangle of its own, as large as it needs; all on one as large as the
-/// frame where that is less. The rectangles' memory is used again once nobody reads it.
+/// Draws each object on a rectangle of its own, as large as it needs, and over these each label;
+/// all on one as large as the frame where that is less. The rectangles' memory is used again once
+/// nobody reads it.
 class Painter {
  public:
   /// The objects of a frame that has passed, drawn or not: trails go on.
@@ -50,14 +52,14 @@ class Painter {
 
  private:
   [[nodiscard]] Layout layOutAll(const Scene& scene, const Views& views);
+  [[nodiscard]] std::span<Figure> figures() { return {figures_.data(), figureCount_}; }
   void paintWhole(const Scene& scene, const Views& views, const Layout& layout);
   void paintEach(const Layout& layout);
   [[nodiscard]] Canvas addRectangle(const Box& box, const Style& style);
 
   Trails trails_;
   std::vector<Figure> figures_;  ///< The first figureCount_ are of this frame.
-  std::vector<Box> extents_;
-  std::vector<Box> labels_;
+  std::vector<Box> extents_;     ///< Of these.
   size_t figureCount_ = 0;
   Pool<Image<uint32_t>> pool_;
   CompositionPtr composition_;  ///< The one being made.

@@ -66,38 +66,64 @@ TEST(Trails, EndWithTheirObject) {
   EXPECT_EQ(trailOf(trails, object(7, {0, 0, 2, 2})).size(), 1u);
 }
 
-Figure figureOf(const Object& object, Size frame, std::vector<Box>& labels) {
+Figure figureOf(const Object& object, Size frame) {
   Figure figure;
-  layOut(object, {{kSize, frame}, {}, styleFor(frame, 1)}, {}, labels, figure);
+  layOut(object, {{kSize, frame}, {}, styleFor(frame, 1)}, {}, figure);
   return figure;
 }
 
 TEST(Figure, FollowsTheFramesScale) {
-  std::vector<Box> labels;
-  const Figure figure = figureOf(object(1, {100, 100, 20, 40}), {1280, 240}, labels);
+  const Figure figure = figureOf(object(1, {100, 100, 20, 40}), {1280, 240});
   EXPECT_EQ(figure.box, (Box{200, 50, 40, 20}));
   EXPECT_EQ(figure.centre, (Point{220, 60}));
   EXPECT_EQ(figure.tip, (Point{236, 60}));
 }
 
 TEST(Figure, WordsSayTheState) {
-  std::vector<Box> labels;
   const Box box{100, 100, 20, 40};
-  EXPECT_EQ(figureOf(object(12, box), kSize, labels).text, "12");
-  EXPECT_EQ(figureOf(object(12, box, ObjectState::Stopped), kSize, labels).text, "12 stopped");
-  EXPECT_EQ(figureOf(object(12, box, ObjectState::Occluded), kSize, labels).text, "12 occluded");
-  EXPECT_EQ(figureOf(object(12, box, ObjectState::Stopped), {160, 120}, labels).text, "12");
+  EXPECT_EQ(figureOf(object(12, box), kSize).text, "12");
+  EXPECT_EQ(figureOf(object(12, box, ObjectState::Stopped), kSize).text, "12 stopped");
+  EXPECT_EQ(figureOf(object(12, box, ObjectState::Occluded), kSize).text, "12 occluded");
+  EXPECT_EQ(figureOf(object(12, box, ObjectState::Stopped), {160, 120}).text, "12");
+}
+
+TEST(Figure, WhatHasStoppedPointsNowhere) {
+  const Box box{100, 100, 20, 40};
+  for (const auto& [state, dx] : {std::pair{ObjectState::Tracked, 8}, {ObjectState::Stopped, 0}}) {
+    const Figure figure = figureOf(object(1, box, state), kSize);
+    EXPECT_EQ(figure.tip.x - figure.centre.x, dx);
+  }
+}
+
+std::vector<Figure> labelled(const std::vector<Box>& boxes) {
+  const Layout layout{{kSize, kSize}, {}, styleFor(kSize, 1)};
+  std::vector<Figure> figures;
+  for (const Box& box : boxes) figures.push_back(figureOf(object(123, box), kSize));
+  placeLabels(figures, layout);
+  return figures;
 }
 
 TEST(Figure, LabelsStayInTheFrameAndClearOfEachOther) {
-  std::vector<Box> labels;
-  for (const Box box : {Box{-30, -30, 50, 50}, Box{630, 470, 50, 50}, Box{300, 200, 20, 40},
-                        Box{302, 202, 20, 40}, Box{304, 198, 20, 40}})
-    figureOf(object(123, box), kSize, labels);
-  for (size_t i = 0; i < labels.size(); ++i) {
-    EXPECT_EQ(intersect(labels[i], boundsOf(kSize)), labels[i]) << i;
-    for (size_t k = 0; k < i; ++k) EXPECT_TRUE(intersect(labels[i], labels[k]).isEmpty());
+  const auto figures = labelled({{-30, -30, 50, 50},
+                                 {630, 470, 50, 50},
+                                 {300, 200, 20, 40},
+                                 {302, 202, 20, 40},
+                                 {304, 198, 20, 40}});
+  for (size_t i = 0; i < figures.size(); ++i) {
+    const Box& label = figures[i].label;
+    EXPECT_EQ(intersect(label, boundsOf(kSize)), label) << i;
+    for (size_t k = 0; k < i; ++k)
+      EXPECT_TRUE(intersect(label, figures[k].label).isEmpty()) << i << ' ' << k;
   }
+}
+
+TEST(Figure, LabelsHideNoOtherObjectWhereThereIsRoom) {
+  // Above the first one, where its label would go, stands the second.
+  const auto figures = labelled({{300, 200, 40, 60}, {300, 150, 40, 48}});
+  for (const Figure& figure : figures)
+    for (const Figure& other : figures)
+      EXPECT_TRUE(intersect(figure.label, other.box).isEmpty()) << figure.label.x;
+  EXPECT_EQ(figures[0].label.y, 260);
 }
 
 TEST(Style, GrowsWithTheFrame) {
@@ -117,24 +143,34 @@ TEST(Painter, HasNothingToDrawWithoutObjects) {
   EXPECT_FALSE(painter.paint({kSize, 25, hidden.get()}, {}));
 }
 
-int64_t areaOf(const CompositionPtr& composition) {
-  int64_t area = 0;
+std::vector<Box> rectanglesOf(const CompositionPtr& composition) {
+  std::vector<Box> boxes;
   for (guint i = 0; i < gst_video_overlay_composition_n_rectangles(composition.get()); ++i) {
     gint x = 0, y = 0;
     guint width = 0, height = 0;
     gst_video_overlay_rectangle_get_render_rectangle(
         gst_video_overlay_composition_get_rectangle(composition.get(), i), &x, &y, &width, &height);
-    area += int64_t{width} * height;
+    boxes.push_back({x, y, static_cast<int>(width), static_cast<int>(height)});
   }
+  return boxes;
+}
+
+int64_t areaOf(const CompositionPtr& composition) {
+  int64_t area = 0;
+  for (const Box& box : rectanglesOf(composition)) area += box.area();
   return area;
 }
 
-TEST(Painter, DrawsARectangleForEachObject) {
+TEST(Painter, DrawsARectangleForEachObjectAndOverTheseEachLabel) {
   Painter painter;
-  const auto list = objects(kSize, {object(1, {50, 50, 40, 80}), object(2, {300, 300, 40, 80})});
+  const auto list = objects(kSize, {object(1, {50, 50, 40, 80}), object(2, {60, 60, 40, 80})});
   const auto composition = painter.paint({kSize, 25, list.get()}, {});
   ASSERT_TRUE(composition);
-  EXPECT_EQ(gst_video_overlay_composition_n_rectangles(composition.get()), 2u);
+  const auto boxes = rectanglesOf(composition);
+  ASSERT_EQ(boxes.size(), 4u);
+  for (size_t i : {0u, 1u}) EXPECT_GE(boxes[i].height, 80);
+  const Size label = labelSize("1", styleFor(kSize, 1));
+  for (size_t i : {2u, 3u}) EXPECT_EQ(boxes[i].height, label.height);
   EXPECT_LT(areaOf(composition), kSize.area() / 10);
 }
 

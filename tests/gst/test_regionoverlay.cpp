@@ -87,7 +87,7 @@ TEST(RegionOverlay, AttachesWhereDownstreamDrawsByItself) {
   EXPECT_EQ(testing::bytesOf(out.get()), before);
   const auto* meta = gst_buffer_get_video_overlay_composition_meta(out.get());
   ASSERT_TRUE(meta);
-  EXPECT_EQ(gst_video_overlay_composition_n_rectangles(meta->overlay), 1u);
+  EXPECT_EQ(gst_video_overlay_composition_n_rectangles(meta->overlay), 2u);  // Object and label.
 }
 
 TEST(RegionOverlay, DoesNotDrawOnFramesThatOthersHold) {
