@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// What one arc of the region graph adds to the energy U (paper, section 2.3 phase 2.2).
+// What an arc of the region graph adds to the energy U (paper, section 2.3 phase 2.2).
 #pragma once
 
 #include <cstdint>
@@ -16,6 +16,17 @@ struct ArcEnergy {
   /// What U gains when the ends are in one group.
   [[nodiscard]] constexpr int64_t weight() const { return border + arc + prediction - motion; }
   friend constexpr bool operator==(const ArcEnergy&, const ArcEnergy&) = default;
+};
+
+/// The arc between a region and the ground, where the camera moves; kept where the region is
+/// background. Below 0 where the ground's motion explains the region better, or where an object is
+/// expected.
+struct GroundEnergy {
+  int64_t motion = 0;      ///< U1.
+  int64_t prediction = 0;  ///< As in ArcEnergy.
+
+  [[nodiscard]] constexpr int64_t weight() const { return prediction - motion; }
+  friend constexpr bool operator==(const GroundEnergy&, const GroundEnergy&) = default;
 };
 
 }  // namespace rg

@@ -135,6 +135,13 @@ void weighArcs(const Motion& motion, std::span<const uint32_t> predicted,
   }
 }
 
+GroundEnergy weighGround(int64_t gain, int64_t areaPx, bool isExpected,
+                         const MergeWeights& weights) {
+  const int64_t rootArea = integerSqrt(static_cast<uint64_t>(areaPx));
+  return {.motion = weights.motion * gain / kGainUnit,
+          .prediction = isExpected ? -weights.prediction * rootArea : 0};
+}
+
 void listArcs(const Graph& graph, std::span<const ArcEnergy> energies,
               std::vector<WeightedArc>& arcs) {
   arcs.clear();

@@ -8,6 +8,11 @@
 //   excess = clamp(|vs − vt|² − T², 0, 6 T²) / T²,  r = the lesser reliability of the two.
 // Regions that show no reliable motion are thus joined by geometry alone.
 //
+// Where the camera moves, the ground is one more node, with an arc to every region: that weighs by
+// how much better the camera's motion explains the region's pixels than another (U1,
+// core/own_motion.hpp), less the prediction where the region is expected to be an object. What ends
+// up in the ground's group is background. So the same sum decides what moves at all.
+//
 // Determinism: integers; every choice has a key (weight, then a hash of the two labels, then the
 // labels), so the result depends on the graph alone. Groups count from 0 in the order of their
 // first regions.
@@ -96,6 +101,13 @@ struct Group {
 /// belong to, 0 = none; an empty span = nothing is expected.
 void weighArcs(const Motion& motion, std::span<const uint32_t> predicted,
                const MergeWeights& weights, std::vector<ArcEnergy>& energies);
+
+inline constexpr int64_t kGainUnit = 256;
+
+/// The arc between a region and the ground. gain: how much better another motion than the camera's
+/// explains it, in 1/kGainUnit (OwnMotion).
+[[nodiscard]] GroundEnergy weighGround(int64_t gain, int64_t areaPx, bool isExpected,
+                                       const MergeWeights& weights);
 
 /// The arcs of the graph as minimise() takes them; `energies` as weighArcs() made them.
 void listArcs(const Graph& graph, std::span<const ArcEnergy> energies,

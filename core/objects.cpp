@@ -2,6 +2,7 @@
 #include "core/objects.hpp"
 
 #include "core/contour.hpp"
+#include "core/ground_merge.hpp"
 #include "core/mrf_merge.hpp"
 #include "core/own_motion.hpp"
 #include "core/pixel.hpp"
@@ -18,7 +19,6 @@ namespace rg {
 namespace {
 
 constexpr int64_t kNominalStepNs = 40'000'000;
-constexpr int64_t kCut = int64_t{1} << 40;  // More than any border holds together.
 constexpr int64_t kLongestStepNs = 10'000'000'000;
 
 MergeWeights weightsOf(const ObjectParams& params) {
@@ -50,10 +50,10 @@ class CpuObjectStage final : public ObjectStage {
                     Objects& objects);
   void expectLabels(const Graph& graph, int64_t stepNs, Objects& objects);
   void startGroups(std::vector<uint32_t>& groupOf) const;
-  void followCamera(const Motion& motion, const ObjectParams& params, Objects& objects);
-  void cutAroundMovers(std::vector<ArcEnergy>& energies, const Graph& graph) const;
+  void tieToGround(const Graph& graph, const MergeWeights& weights,
+                   std::vector<GroundEnergy>& energies) const;
   void markSurroundings(const Graph& graph, const Objects& objects);
-  void markBackground(const Graph& graph, const Objects& objects);
+  void markBackground(const Graph& graph, const Objects& objects, uint32_t ground);
   void paint(const Graph& graph, Objects& objects);
   void paintRow(int y, const RegionRun& cells, const Graph& graph, Objects& objects);
   void describe(const Graph& graph, bool hasTime, Objects& objects);
@@ -74,7 +74,8 @@ class CpuObjectStage final : public ObjectStage {
   std::vector<int32_t> majority_;  ///< Of each group: foreground samples less the others.
   std::shared_ptr<const Picture> previous_;
   OwnMotionScratch ownMotionScratch_;
-  std::vector<uint8_t> movesOtherwise_;  ///< Of each region, under Scope::Frame.
+  std::vector<OwnMotion> own_;  ///< Of each region, under Scope::Frame.
+  GroundScratch groundScratch_;
   Evidence evidence_;
   struct Sums {
     uint64_t count = 0, x = 0, y = 0, red = 0, green = 0, blue = 0;
@@ -130,42 +131,41 @@ void CpuObjectStage::startGroups(std::vector<uint32_t>& groupOf) const {
 void CpuObjectStage::mergeRegions(const Motion& motion, const ObjectParams& params, int64_t stepNs,
                                   Objects& objects) {
   const Graph& graph = *motion.graph;
+  const MergeWeights weights = weightsOf(params);
   std::vector<uint32_t>& groupOf = objects.regionGroup;
-  followCamera(motion, params, objects);
-  expectLabels(graph, stepNs, objects);
-  weighArcs(motion, expected_, weightsOf(params), objects.arcs);
-  cutAroundMovers(objects.arcs, graph);
-  listArcs(graph, objects.arcs, arcs_);
-  startGroups(groupOf);
-  minimise(static_cast<uint32_t>(graph.regions.size()), arcs_, mergeScratch_, groupOf);
-  describeGroups(motion, groupOf, groups_);
-  markBackground(graph, objects);
-}
-
-/// Under Scope::Frame the motion that most agree on is the camera's, and what moves otherwise is
-/// told from the background before regions are merged: a mover that is small against the frame
-/// would be outweighed by its border.
-void CpuObjectStage::followCamera(const Motion& motion, const ObjectParams& params,
-                                  Objects& objects) {
-  const Graph& graph = *motion.graph;
-  const std::shared_ptr<const Picture> previous = std::move(previous_);
-  previous_ = graph.labels->picture;
-  movesOtherwise_.assign(graph.regions.size(), 0);
-  objects.cameraDx = objects.cameraDy = 0;
-  if (graph.labels->scope != Scope::Frame || motion.status == Status::Skipped) return;
-  const RegionMotion camera = dominantMotion(motion, voteScratch_);
+  const std::shared_ptr<const Picture> previous = std::exchange(previous_, graph.labels->picture);
+  const bool isMoving = graph.labels->scope == Scope::Frame && motion.status != Status::Skipped;
+  const RegionMotion camera = isMoving ? dominantMotion(motion, voteScratch_) : RegionMotion{};
   objects.cameraDx = camera.dx;
   objects.cameraDy = camera.dy;
-  if (previous && previous_ && previous->size() == previous_->size())
-    findOwnMotion(motion, previous->luma(), {camera, weightsOf(params).motionThreshold},
-                  *context_.cpu, ownMotionScratch_, movesOtherwise_);
+  expectLabels(graph, stepNs, objects);
+  weighArcs(motion, expected_, weights, objects.arcs);
+  startGroups(groupOf);
+  uint32_t ground = kNoGroup;
+  if (graph.labels->scope == Scope::Frame) {
+    own_.assign(graph.regions.size(), {});
+    ownMotionScratch_.moves.assign(graph.regions.size(), 0);
+    if (isMoving && previous && previous_ && previous->size() == previous_->size())
+      findOwnMotion(motion, previous->luma(), {camera, weights, expected_, shifts_}, *context_.cpu,
+                    ownMotionScratch_, own_);
+    tieToGround(graph, weights, objects.ground);
+    ground =
+        minimiseWithGround(graph, objects.arcs, {objects.ground, own_, ownMotionScratch_.moves},
+                           groundScratch_, mergeScratch_, groupOf);
+  } else {
+    listArcs(graph, objects.arcs, arcs_);
+    minimise(static_cast<uint32_t>(graph.regions.size()), arcs_, mergeScratch_, groupOf);
+  }
+  describeGroups(motion, groupOf, groups_);
+  markBackground(graph, objects, ground);
 }
 
-void CpuObjectStage::cutAroundMovers(std::vector<ArcEnergy>& energies, const Graph& graph) const {
-  for (size_t i = 0; i < energies.size(); ++i)
-    if (movesOtherwise_[graph.arcs[i].a - 1u] != movesOtherwise_[graph.arcs[i].b - 1u])
-      energies[i].motion =
-          std::max(energies[i].motion, energies[i].weight() + energies[i].motion + kCut);
+void CpuObjectStage::tieToGround(const Graph& graph, const MergeWeights& weights,
+                                 std::vector<GroundEnergy>& energies) const {
+  energies.clear();
+  for (size_t r = 0; r < own_.size(); ++r)
+    energies.push_back(
+        weighGround(own_[r].gain, graph.regions[r].areaPx, expected_[r] != 0, weights));
 }
 
 /// Under Scope::Areas regions of the background lie round the things: a group of which most pixels
@@ -185,13 +185,11 @@ void CpuObjectStage::markSurroundings(const Graph& graph, const Objects& objects
   for (size_t g = 0; g < groups_.size(); ++g) isBackground_[g] = majority_[g] < 0;
 }
 
-/// Under Scope::Frame the background is all that moves as the camera does.
-void CpuObjectStage::markBackground(const Graph& graph, const Objects& objects) {
+/// ground: the group of the background under Scope::Frame.
+void CpuObjectStage::markBackground(const Graph& graph, const Objects& objects, uint32_t ground) {
   isBackground_.assign(groups_.size(), 0);
   if (graph.labels->scope == Scope::Areas) return markSurroundings(graph, objects);
-  if (graph.labels->scope != Scope::Frame) return;
-  for (size_t r = 0; r < movesOtherwise_.size(); ++r)
-    if (movesOtherwise_[r] == 0) isBackground_[objects.regionGroup[r]] = 1;
+  if (ground != kNoGroup) isBackground_[ground] = 1;
 }
 
 /// Gives each pixel to an object: by its cell, and where that has no owner, not at all.
@@ -301,6 +299,7 @@ Result<std::shared_ptr<const Objects>> CpuObjectStage::process(std::shared_ptr<c
   objects->regionExpected.clear();
   objects->regionGroup.clear();
   objects->arcs.clear();
+  objects->ground.clear();
   objects->cameraDx = objects->cameraDy = 0;
   const TrackerParams tracking{
       static_cast<int64_t>(std::clamp(params.maxLostTimeS, 0.0, 3600.0) * 1e9),

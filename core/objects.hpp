@@ -73,7 +73,9 @@ struct Objects {
   std::vector<uint32_t> regionGroup;     ///< For each region the group that it was merged into.
   std::vector<ArcEnergy> arcs;  ///< Parallel to the graph's arcs; kept where both ends are in one
                                 ///< group, broken elsewhere.
-  int32_t cameraDx = 0;         ///< Motion of the background since the previous frame, in 1/16 px.
+  std::vector<GroundEnergy> ground;  ///< Of each region's arc to the ground, under a moving camera;
+                                     ///< empty otherwise. Kept where the region is background.
+  int32_t cameraDx = 0;  ///< Motion of the background since the previous frame, in 1/16 px.
   int32_t cameraDy = 0;
   std::vector<Event> events;
 
@@ -89,6 +91,7 @@ struct Objects {
     regionExpected = other.regionExpected;
     regionGroup = other.regionGroup;
     arcs = other.arcs;
+    ground = other.ground;
     cameraDx = other.cameraDx;
     cameraDy = other.cameraDy;
     events = other.events;

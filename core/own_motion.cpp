@@ -5,22 +5,29 @@
 #include "core/simd/motion_rows.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 
 namespace rg {
 namespace {
 
+constexpr int kOwnRounds = 2;  // The first movers show which ground was hidden.
 constexpr int kNeighbourRounds = 2;
-// A search over thousands of shifts finds some gain in mere noise: four deviations of it.
-constexpr uint64_t kNoiseGain = 18;
-constexpr uint64_t kLeastGainShare = 4;  // At least a grey level for so many pixels.
+constexpr int kBands = OwnMotionScratch::kBands;
+constexpr size_t kLeftOut = 2;
+constexpr int64_t kLeastGainShare = 4;  // A mover gains a grey level for so many pixels.
+constexpr int64_t kNoiseUnit = 16;
+// In deviations of what noise gains: the best of thousands of shifts, and one that others suggest.
+constexpr int64_t kSearchGain = 4;
+constexpr int64_t kNoiseGain = 1;
 
+using Sums = OwnMotionScratch::Sums;
 using Trial = OwnMotionScratch::Trial;
 
 /// What is given to all steps.
 struct Inputs {
   const Motion& motion;
   const Executor& executor;
-  RegionMotion camera;
+  const OwnMotionRules& rules;
 };
 
 /// Rows or columns of the frame that the previous frame shows as well.
@@ -70,13 +77,13 @@ Point shiftBeyond(const RegionMotion& m, const RegionMotion& camera) {
 
 /// Calls visit(first pixel, count, label) for all that the movers covered in the previous frame.
 template <class Visit>
-void forCovered(const Inputs& in, const std::vector<uint8_t>& moves, OwnMotionScratch& s,
+void forCovered(const Inputs& in, const std::vector<OwnMotion>& own, OwnMotionScratch& s,
                 const Visit& visit) {
   const Graph& graph = *in.motion.graph;
   in.executor.forRows(graph.size.height, [&](int begin, int end) {
-    for (size_t i = 0; i < moves.size(); ++i) {
-      if (moves[i] == 0) continue;
-      const Point shift = s.shifts[i];
+    for (size_t i = 0; i < own.size(); ++i) {
+      if (s.moves[i] == 0) continue;
+      const Point shift = own[i].shift;
       const auto runs = graph.runs.of(i);
       auto run = std::lower_bound(runs.begin(), runs.end(), begin + shift.y,
                                   [](const RegionRun& r, int y) { return r.y < y; });
@@ -88,16 +95,6 @@ void forCovered(const Inputs& in, const std::vector<uint8_t>& moves, OwnMotionSc
       }
     }
   });
-}
-
-/// Whether what covered a pixel keeps a region from being seen there: what moves along with it does
-/// not, being a part of the same thing.
-bool isHidden(uint16_t by, Point shift, const std::vector<uint8_t>& moves, uint16_t region,
-              const OwnMotionScratch& s) {
-  if (by == kNoRegion || by == region) return false;
-  const Point other = s.shifts[by - 1u];
-  return moves[region - 1u] == 0 ||
-         std::max(absDiff(other.x, shift.x), absDiff(other.y, shift.y)) > 1;
 }
 
 /// Calls visit(first, last) for the parts of a row's columns that nothing hides from a region.
@@ -115,67 +112,107 @@ void forVisible(const uint16_t* hidden, Range columns, const IsHiding& isHiding,
   }
 }
 
+/// Adds up the bands of a region but for the neighbours that gain most.
+Sums withoutBest(const std::array<Sums, kBands>& bands) {
+  const auto sumOf = [](auto first, auto last) {
+    Sums sum;
+    for (auto band = first; band != last; ++band) {
+      sum.still += band->still;
+      sum.moved += band->moved;
+      sum.pixels += band->pixels;
+    }
+    return sum;
+  };
+  Sums best;
+  int64_t most = INT64_MIN;
+  for (auto band = bands.begin(); band + kLeftOut <= bands.end(); ++band) {
+    const Sums sum = sumOf(band, band + kLeftOut);
+    const auto gain = static_cast<int64_t>(sum.still - sum.moved);
+    if (gain > most) best = sum;
+    most = std::max(most, gain);
+  }
+  Sums all = sumOf(bands.begin(), bands.end());
+  if (best.pixels == all.pixels) return all;
+  return {all.still - best.still, all.moved - best.moved, all.pixels - best.pixels};
+}
+
 /// Compares a region, where it can be compared with and without the shift.
-void compare(const Inputs& in, const std::vector<uint8_t>& moves, size_t region,
-             OwnMotionScratch& s) {
+Sums compare(const Inputs& in, size_t region, const OwnMotionScratch& s) {
   const Graph& graph = *in.motion.graph;
   const ImageView<const uint8_t> luma = graph.labels->picture->luma();
-  const Range columns = visibleRange(graph.size.width, in.camera.dx);
-  const Range rows = visibleRange(graph.size.height, in.camera.dy);
-  Trial& trial = s.trials[region];
-  const Point shift = trial.shift;
-  const auto label = static_cast<uint16_t>(region + 1);
-  const auto isHiding = [&](uint16_t by) { return isHidden(by, shift, moves, label, s); };
+  const Range columns = visibleRange(graph.size.width, in.rules.camera.dx);
+  const Range rows = visibleRange(graph.size.height, in.rules.camera.dy);
+  const Point shift = s.trials[region].shift;
+  const Box& box = graph.regions[region].box;
+  const bool isAcross = std::abs(shift.x) >= std::abs(shift.y);
+  const auto isHiding = [&](uint16_t by) { return by != kNoRegion && by != region + 1; };
+  std::array<Sums, kBands> bands{};
   for (const RegionRun& run : graph.runs.of(region)) {
     const int y = run.y, from = y - shift.y;
     if (y < rows.first || y >= rows.last || from < rows.first || from >= rows.last) continue;
     const Range seen{std::max({int{run.begin}, columns.first, columns.first + shift.x}),
                      std::min({int{run.end}, columns.last, columns.last + shift.x})};
     const uint8_t *now = luma.row(y), *still = s.expected.row(y), *moved = s.expected.row(from);
-    forVisible(s.hidden.row(y), seen, isHiding, [&](int first, int last) {
+    const auto addTo = [&](int band, int first, int last) {
+      if (first >= last) return;
       const simd::DifferenceSums sums = simd::sumDifferences(
           {now + first, still + first, moved + (first - shift.x)}, last - first);
-      trial.still += sums.still;
-      trial.moved += sums.moved;
-      trial.pixels += static_cast<uint64_t>(last - first);
+      Sums& sum = bands[static_cast<size_t>(band)];
+      sum.still += sums.still;
+      sum.moved += sums.moved;
+      sum.pixels += static_cast<uint64_t>(last - first);
+    };
+    forVisible(s.hidden.row(y), seen, isHiding, [&](int first, int last) {
+      if (isAcross) return addTo(kBands * (y - box.y) / box.height, first, last);
+      for (int band = 0; band < kBands; ++band)
+        addTo(band, std::max(first, box.x + band * box.width / kBands),
+              std::min(last, box.x + (band + 1) * box.width / kBands));
     });
   }
+  return withoutBest(bands);
 }
 
 /// Measures each region that has a shift to try, on pixels that can be compared with and without.
-void measure(const Inputs& in, const std::vector<uint8_t>& moves, OwnMotionScratch& s) {
-  forCovered(in, moves, s, simd::raiseRow);
+void measure(const Inputs& in, const std::vector<OwnMotion>& own, OwnMotionScratch& s) {
+  forCovered(in, own, s, simd::raiseRow);
   in.executor.forEach(static_cast<int>(s.trials.size()), [&](int i) {
     const auto region = static_cast<size_t>(i);
-    if (s.trials[region].shift != Point{}) compare(in, moves, region, s);
+    if (s.trials[region].shift != Point{}) s.trials[region].sums = compare(in, region, s);
   });
-  forCovered(in, moves, s,
+  forCovered(in, own, s,
              [](uint16_t* hidden, int count, uint16_t) { std::fill_n(hidden, count, kNoRegion); });
 }
 
-/// Whether `better` explains the pixels better than `worse`, beyond what noise may do.
-bool isClearlyLess(uint64_t better, uint64_t worse, uint64_t pixels) {
-  if (better + pixels / kLeastGainShare >= worse) return false;
-  const uint64_t gain = worse - better;
-  return gain * gain * pixels > kNoiseGain * better * better;
+/// How much a pixel differs from what explains it, over all that is tried.
+void measureNoise(OwnMotionScratch& s) {
+  uint64_t sum = 0, pixels = 0;
+  for (const OwnMotionScratch::Trial& trial : s.trials) {
+    sum += std::min(trial.sums.still, trial.sums.moved);
+    pixels += trial.sums.pixels;
+  }
+  s.noise = pixels == 0 ? kNoiseUnit : std::max(uint64_t{kNoiseUnit}, kNoiseUnit * sum / pixels);
+}
+
+/// deviations: of its noise, by as many the gain has to be the larger.
+int64_t gainOf(const Sums& sums, int64_t deviations, uint64_t noise) {
+  const auto pixels = static_cast<int64_t>(sums.pixels);
+  const int64_t gain = static_cast<int64_t>(sums.still - sums.moved) - pixels / kLeastGainShare;
+  return kGainUnit * kNoiseUnit * gain / static_cast<int64_t>(noise) -
+         kGainUnit * deviations * integerSqrt(sums.pixels);
 }
 
 /// How long the border of each region is, with how much of it moving regions share, and which of
 /// those shares most.
-void measureBorders(const Graph& graph, const std::vector<uint8_t>& moves, OwnMotionScratch& s) {
-  s.border.assign(moves.size(), 0);
-  s.movingBorder.assign(moves.size(), 0);
-  s.longest.assign(moves.size(), 0);
-  s.neighbour.assign(moves.size(), 0);
-  s.movingArea.assign(moves.size(), 0);
+void lookAround(const Graph& graph, OwnMotionScratch& s) {
+  s.around.assign(s.moves.size(), {});
   const auto see = [&](uint32_t region, uint32_t other, uint32_t borderPx) {
-    s.border[region] += borderPx;
-    if (moves[other] == 0) return;
-    s.movingBorder[region] += borderPx;
-    s.movingArea[region] += graph.regions[other].areaPx;
-    if (borderPx <= s.longest[region]) return;
-    s.longest[region] = borderPx;
-    s.neighbour[region] = other + 1;
+    OwnMotionScratch::Surroundings& around = s.around[region];
+    const int side = s.moves[other] != 0 ? 1 : -1;
+    around.border += side * static_cast<int32_t>(borderPx);
+    around.arcs += side;
+    if (side < 0 || borderPx <= around.longest) return;
+    around.longest = borderPx;
+    around.neighbour = other + 1;
   };
   for (const Arc& arc : graph.arcs) {
     see(arc.a - 1u, arc.b - 1u, arc.borderPx);
@@ -183,67 +220,78 @@ void measureBorders(const Graph& graph, const std::vector<uint8_t>& moves, OwnMo
   }
 }
 
-/// The whole-pixel shift of each region that moves otherwise than the camera. True if any does.
-bool findShifts(const Inputs& in, int32_t threshold, std::vector<Point>& shifts) {
-  const std::vector<RegionMotion>& regions = in.motion.regions;
-  shifts.assign(regions.size(), {});
-  for (size_t i = 0; i < regions.size(); ++i) {
-    const int64_t dx = regions[i].dx - in.camera.dx, dy = regions[i].dy - in.camera.dy;
-    if (dx * dx + dy * dy > int64_t{threshold} * threshold)
-      shifts[i] = shiftBeyond(regions[i], in.camera);
-  }
-  return std::any_of(shifts.begin(), shifts.end(), [](Point p) { return p != Point{}; });
+uint32_t expectedAs(const OwnMotionRules& rules, size_t region) {
+  return rules.expected.empty() ? 0 : rules.expected[region];
 }
 
-/// Tries each region's own vector; twice, as the first movers show which ground was hidden.
-void tryOwnVectors(const Inputs& in, OwnMotionScratch& s, std::vector<uint8_t>& moves) {
-  const size_t count = moves.size();
-  for (int round = 0; round < 2; ++round) {
-    s.trials.assign(count, {});
-    for (size_t i = 0; i < count; ++i) s.trials[i].shift = s.shifts[i];
-    measure(in, moves, s);
-    for (size_t i = 0; i < count; ++i)
-      moves[i] = isClearlyLess(s.trials[i].moved, s.trials[i].still, s.trials[i].pixels);
+/// Whether U is less when a region moves, with its neighbours as they were guessed.
+bool isMover(const Inputs& in, size_t region, const OwnMotion& own, const OwnMotionScratch& s) {
+  const MergeWeights& weights = in.rules.weights;
+  const OwnMotionScratch::Surroundings& around = s.around[region];
+  const int64_t area = in.motion.graph->regions[region].areaPx;
+  const GroundEnergy ground =
+      weighGround(own.gain, area, expectedAs(in.rules, region) != 0, weights);
+  return int64_t{weights.border} * around.border + int64_t{weights.arc} * around.arcs >
+         ground.weight();
+}
+
+/// Takes over what was measured, and guesses again which of those regions move.
+void judge(const Inputs& in, int64_t deviations, OwnMotionScratch& s, std::vector<OwnMotion>& own) {
+  lookAround(*in.motion.graph, s);
+  for (size_t i = 0; i < own.size(); ++i) {
+    const OwnMotionScratch::Trial& trial = s.trials[i];
+    if (trial.shift == Point{}) continue;
+    own[i] = {trial.shift, gainOf(trial.sums, deviations, s.noise)};
+    s.moves[i] = isMover(in, i, own[i], s);
   }
 }
 
-/// Tries the vectors of moving neighbours on the regions that are not found to move.
-void tryNeighbours(const Inputs& in, OwnMotionScratch& s, std::vector<uint8_t>& moves) {
-  const Graph& graph = *in.motion.graph;
-  const size_t count = moves.size();
-  measureBorders(graph, moves, s);
-  s.trials.assign(count, {});
-  for (size_t i = 0; i < count; ++i)
-    if (moves[i] == 0 && s.neighbour[i] != 0) s.trials[i].shift = s.shifts[s.neighbour[i] - 1];
-  measure(in, moves, s);
-  for (size_t i = 0; i < count; ++i) {
-    const Trial& t = s.trials[i];
-    if (t.shift == Point{}) continue;
-    const bool isOpen = !isClearlyLess(t.still, t.moved, t.pixels);
-    const bool isSurrounded =
-        2 * uint64_t{s.movingBorder[i]} > s.border[i] && graph.regions[i].areaPx <= s.movingArea[i];
-    if (isClearlyLess(t.moved, t.still, t.pixels) || (isOpen && isSurrounded)) {
-      moves[i] = 1;
-      s.shifts[i] = t.shift;
-    }
-  }
+/// The shift that a region's own vector suggests, or what it is expected to be.
+Point ownShift(const Inputs& in, size_t region) {
+  const RegionMotion &m = in.motion.regions[region], &camera = in.rules.camera;
+  const int64_t dx = m.dx - camera.dx, dy = m.dy - camera.dy;
+  const int64_t threshold = in.rules.weights.motionThreshold;
+  if (dx * dx + dy * dy > threshold * threshold) return shiftBeyond(m, camera);
+  const uint32_t object = expectedAs(in.rules, region);
+  if (object == 0) return {};
+  const Point step = in.rules.steps[object - 1];
+  return {step.x - static_cast<int>(divideRounded(camera.dx, kMotionUnit)),
+          step.y - static_cast<int>(divideRounded(camera.dy, kMotionUnit))};
 }
 
 }  // namespace
 
 void findOwnMotion(const Motion& motion, ImageView<const uint8_t> previous,
                    const OwnMotionRules& rules, const Executor& executor, OwnMotionScratch& s,
-                   std::vector<uint8_t>& movesOtherwise) {
-  const Inputs in{motion, executor, rules.camera};
-  movesOtherwise.assign(motion.regions.size(), 0);
-  if (!findShifts(in, rules.threshold, s.shifts)) return;
+                   std::vector<OwnMotion>& own) {
+  const Inputs in{motion, executor, rules};
+  const size_t count = motion.regions.size();
+  own.assign(count, {});
+  s.moves.assign(count, 0);
+  s.trials.assign(count, {});
+  for (size_t i = 0; i < count; ++i) s.trials[i].shift = ownShift(in, i);
+  if (std::all_of(s.trials.begin(), s.trials.end(),
+                  [](const OwnMotionScratch::Trial& t) { return t.shift == Point{}; }))
+    return;
   if (s.hidden.size() != motion.size) {
     s.hidden.resize(motion.size);
     s.hidden.fill(kNoRegion);
   }
   warp(previous, rules.camera, executor, s.expected);
-  tryOwnVectors(in, s, movesOtherwise);
-  for (int round = 0; round < kNeighbourRounds; ++round) tryNeighbours(in, s, movesOtherwise);
+  for (int round = 0; round < kOwnRounds; ++round) {
+    measure(in, own, s);
+    measureNoise(s);
+    judge(in, kSearchGain, s, own);
+  }
+  for (int round = 0; round < kNeighbourRounds; ++round) {
+    lookAround(*motion.graph, s);
+    s.trials.assign(count, {});
+    for (size_t i = 0; i < count; ++i)
+      if (s.moves[i] == 0 && s.around[i].neighbour != 0)
+        s.trials[i].shift = own[s.around[i].neighbour - 1].shift;
+    measure(in, own, s);
+    judge(in, kNoiseGain, s, own);
+  }
 }
 
 }  // namespace rg

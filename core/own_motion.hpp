@@ -1,53 +1,85 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Which regions move otherwise than the camera (part of stage 5).
+// What the pixels say of each region: whether it moves as the camera does or otherwise (part of
+// stage 5; U1 of the arcs between regions and the ground, core/mrf_merge.hpp).
 //
-// Vectors of small or plain regions are uncertain, so the pixels decide: the previous frame is
-// shifted as the camera moved, and a region moves otherwise if another shift explains its pixels
-// clearly better than none. Tried is the region's own vector, then for those that are not found to
-// move the vector of the moving neighbour with the longest border: a part that no shift explains
-// better goes with most of its border, unless it is the larger part. Ground that a mover has just
-// left says nothing, as it was not to be seen before. All shifts are whole pixels away from the
-// camera's, so that interpolation smooths the noise of both sides alike. Determinism: integer sums
-// over pixels; rounds read the state before them.
+// Vectors of small or plain regions are uncertain, so the pixels are asked: the previous frame is
+// shifted as the camera moved, and compared with and without a further shift. Tried is the region's
+// own vector; where that is the camera's, the step of the object that the region is expected to be;
+// then, where neither makes it move, the shift of the moving neighbour with the longest border.
+// Which neighbours move is a guess that the energy itself makes, region by region.
+//
+// A quarter of a region does not speak for all of it: of eight bands that lie along the shift the
+// two neighbours that gain most are left out, so that plain ground does not go with a mover of its
+// colour that was cut together with it. What really moves gains along its whole leading edge.
+// What a mover has just left says nothing, as it was not to be seen before: else the ground behind
+// it, which another piece of ground explains, would go with it. Nor does it if it is a part of the
+// mover; its neighbours then take it along.
+//
+// All shifts are whole pixels away from the camera's, so that interpolation smooths the noise of
+// both sides alike. Determinism: integer sums over pixels; rounds read the state before them.
 #pragma once
 
 #include "core/executor.hpp"
 #include "core/image.hpp"
+#include "core/mrf_merge.hpp"
 #include "core/region_motion.hpp"
 
+#include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace rg {
 
+/// What speaks for a region's moving otherwise than the camera.
+struct OwnMotion {
+  Point
+      shift;  ///< Whole pixels beyond the camera's that were tried; {} = none, it is the ground's.
+  int64_t gain = 0;  ///< Of the pixels by that shift, in units (1/kGainUnit) of the noise of one
+                     ///< pixel; below 0 where the camera's motion explains them better.
+  [[nodiscard]] bool isTried() const { return shift != Point{}; }
+  friend constexpr bool operator==(const OwnMotion&, const OwnMotion&) = default;
+};
+
 struct OwnMotionScratch {
-  struct Trial {
-    Point shift;          ///< Whole pixels, beyond the camera's; {} = none.
-    uint64_t still = 0;   ///< Sum of absolute differences without the shift,
+  static constexpr int kBands = 8;
+  struct Sums {
+    uint64_t still = 0;   ///< Of absolute differences without the shift,
     uint64_t moved = 0;   ///< and with it,
     uint64_t pixels = 0;  ///< over so many pixels.
   };
-  Image<uint8_t> expected;    ///< The previous frame as the camera's motion moves it.
-  Image<uint16_t> hidden;     ///< Its pixels that a mover covered: the label of that, else 0;
-                              ///< all 0 between measurements.
-  std::vector<Point> shifts;  ///< Of each mover.
+  struct Trial {
+    Point shift;  ///< {} = none.
+    Sums sums;    ///< Of the bands that are not left out.
+  };
+  Image<uint8_t> expected;     ///< The previous frame as the camera's motion moves it.
+  Image<uint16_t> hidden;      ///< Its pixels that a mover covered: the label of that, else 0;
+                               ///< all 0 between measurements.
+  std::vector<uint8_t> moves;  ///< Of each region, the guess.
   std::vector<Trial> trials;
-  std::vector<uint32_t> border, movingBorder, longest;  ///< Of each region, in pixels.
-  std::vector<uint64_t> movingArea;                     ///< Of all its moving neighbours.
-  std::vector<uint32_t> neighbour;                      ///< 1 + region at the longest; 0 = none.
+  struct Surroundings {
+    int32_t border = 0;      ///< With what moves less that with what does not, in pixels.
+    int32_t arcs = 0;        ///< The same of the number of arcs.
+    uint32_t longest = 0;    ///< Of the borders with what moves, in pixels.
+    uint32_t neighbour = 0;  ///< 1 + region at that; 0 = none.
+  };
+  std::vector<Surroundings> around;  ///< Of each region.
+  uint64_t noise = 0;                ///< Mean difference of a pixel, in 1/16 grey level.
 };
 
 struct OwnMotionRules {
   RegionMotion camera;
-  int32_t threshold;  ///< Vectors that differ from the camera's by no more are the camera's, in
-                      ///< 1/16 px.
+  MergeWeights weights;  ///< Vectors that differ from the camera's by no more than the threshold
+                         ///< are the camera's.
+  std::span<const uint32_t> expected;  ///< Of each region 1 + the object that it is expected to be,
+                                       ///< 0 = none. May be empty.
+  std::span<const Point> steps;        ///< Of each object, pixels, with the camera's.
 };
 
-/// previous: the luma that `motion` was measured against. Result: for each region 1 if it moves
-/// otherwise, 0 if not. Cost: follows the pixels of the movers and of their neighbours; where no
-/// vector differs from the camera's, nothing is compared.
+/// previous: the luma that `motion` was measured against. Cost: follows the pixels of the movers
+/// and of their neighbours; where no vector differs from the camera's, nothing is compared.
 void findOwnMotion(const Motion& motion, ImageView<const uint8_t> previous,
                    const OwnMotionRules& rules, const Executor& executor, OwnMotionScratch& scratch,
-                   std::vector<uint8_t>& movesOtherwise);
+                   std::vector<OwnMotion>& own);
 
 }  // namespace rg

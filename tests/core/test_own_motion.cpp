@@ -7,6 +7,8 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdlib>
 
 namespace rg {
 namespace {
@@ -38,19 +40,28 @@ struct TwoFrames {
   Point step_;
 };
 
-std::vector<uint8_t> moversOf(const Picture& previous, std::shared_ptr<const Labels> labels,
-                              const std::vector<Point>& vectors) {
+Motion motionOf(std::shared_ptr<const Labels> labels, const std::vector<Point>& vectors) {
   Motion motion;
-  motion.size = kSize;
+  motion.size = labels->size;
   motion.status = Status::Ok;
   motion.graph = *makeGraphStage(scenes::contextWith(1))->process(std::move(labels), {});
   for (const Point& v : vectors)
     motion.regions.push_back({v.x * kMotionUnit, v.y * kMotionUnit, 0, 20});
-  const RegionMotion camera{kCamera.x * kMotionUnit, kCamera.y * kMotionUnit, 0, 256};
+  return motion;
+}
+
+constexpr RegionMotion kCameraMotion{kCamera.x * kMotionUnit, kCamera.y* kMotionUnit, 0, 256};
+
+std::vector<uint8_t> moversOf(const Picture& previous, std::shared_ptr<const Labels> labels,
+                              const std::vector<Point>& vectors,
+                              const std::vector<uint32_t>& expected = {},
+                              const std::vector<Point>& steps = {}) {
+  const Motion motion = motionOf(std::move(labels), vectors);
   OwnMotionScratch scratch;
-  std::vector<uint8_t> moves;
-  findOwnMotion(motion, previous.luma(), {camera, kMotionUnit}, Executor(1), scratch, moves);
-  return moves;
+  std::vector<OwnMotion> own;
+  findOwnMotion(motion, previous.luma(), {kCameraMotion, {}, expected, steps}, Executor(1), scratch,
+                own);
+  return scratch.moves;
 }
 
 /// Of the ground on the left, the ground on the right, and the square.
@@ -99,6 +110,37 @@ TEST(OwnMotion, APlainPartGoesWithTheMoversAroundIt) {
   EXPECT_THAT(moversOf(*at(0), labels, {kCamera, {9, 1}, {0, 0}}), ElementsAre(0, 1, 1));
 }
 
+TEST(OwnMotion, WhatIsExpectedToMoveIsTriedWithoutAVectorOfItsOwn) {
+  const TwoFrames frames({9, 1});
+  const auto at = [&](int time) {
+    return scenes::paintGrey(kSize, [&](int x, int y) { return frames.levelAt(x, y, time); });
+  };
+  const Point o = frames.squareAt(1);
+  const auto labels = scenes::label(at(1), 2, [&](int x, int y) {
+    return Box{o.x, o.y, 16, 16}.contains({x, y}) ? 2 : 1;
+  });
+  EXPECT_THAT(moversOf(*at(0), labels, {kCamera, kCamera}), ElementsAre(0, 0));
+  EXPECT_THAT(moversOf(*at(0), labels, {kCamera, kCamera}, {0, 1}, {{9, 1}}), ElementsAre(0, 1));
+}
+
+TEST(OwnMotion, GroundDoesNotGoWithAnEndOfItThatMoves) {
+  // A plain ground that was cut together with the head of what moves over it.
+  const TwoFrames frames({9, 1});
+  const auto at = [&](int time) {
+    return scenes::paintGrey(kSize, [&](int x, int y) {
+      const Point o = frames.squareAt(time);
+      return Box{o.x, o.y, 16, 16}.contains({x, y}) ? frames.levelAt(x, y, time)
+                                                    : 100 + frames.levelAt(x, y, time) / 32;
+    });
+  };
+  const Point o = frames.squareAt(1);
+  const auto labels = scenes::label(at(1), 3, [&](int x, int y) {
+    if (Box{o.x, o.y + 4, 16, 12}.contains({x, y})) return 3;
+    return Box{o.x - 4, 2, 24, 40}.contains({x, y}) ? 2 : 1;
+  });
+  EXPECT_THAT(moversOf(*at(0), labels, {kCamera, {9, 1}, {9, 1}}), ElementsAre(0, 0, 1));
+}
+
 /// The same pixel by pixel, over whole frames.
 class Plainly {
  public:
@@ -109,25 +151,27 @@ class Plainly {
         camera_(camera),
         before_(previous.luma()) {}
 
-  std::vector<uint8_t> run() {
+  std::vector<OwnMotion> run() {
     const size_t count = motion_.regions.size();
+    own_.assign(count, {});
     moves_.assign(count, 0);
-    for (size_t i = 0; i < count; ++i) {
-      const int64_t dx = motion_.regions[i].dx - camera_.dx,
-                    dy = motion_.regions[i].dy - camera_.dy;
+    std::vector<Point> shifts;
+    for (const RegionMotion& m : motion_.regions) {
+      const int64_t dx = m.dx - camera_.dx, dy = m.dy - camera_.dy;
       const auto whole = [](int64_t d) { return static_cast<int>(divideRounded(d, kMotionUnit)); };
-      shifts_.push_back(dx * dx + dy * dy > kMotionUnit * kMotionUnit ? Point{whole(dx), whole(dy)}
-                                                                      : Point{});
+      shifts.push_back(dx * dx + dy * dy > kMotionUnit * kMotionUnit ? Point{whole(dx), whole(dy)}
+                                                                     : Point{});
     }
-    for (int round = 0; round < 2; ++round) {
-      const auto before = moves_;
-      for (size_t i = 0; i < count; ++i) moves_[i] = gains(i, shifts_[i], before) > 0 ? 1 : 0;
-    }
-    for (int round = 0; round < 2; ++round) tryNeighbours();
-    return moves_;
+    for (int round = 0; round < 2; ++round) tryShifts(shifts, true);
+    for (int round = 0; round < 2; ++round) tryShifts(neighboursShifts(), false);
+    return own_;
   }
 
  private:
+  struct Sums {
+    int64_t still = 0, moved = 0, pixels = 0;
+  };
+
   [[nodiscard]] int expected(int x, int y) const {
     const auto at = [&](int px, int py) {
       return int{before_.at(std::clamp(px, 0, before_.width() - 1),
@@ -148,67 +192,95 @@ class Plainly {
            isInside(y, camera_.dy, labels_.size.height);
   }
 
-  [[nodiscard]] bool isHidden(int x, int y, size_t region, Point shift,
-                              const std::vector<uint8_t>& moves) const {
-    size_t by = moves.size();
-    for (size_t i = 0; i < moves.size(); ++i) {
-      const Point to{x + shifts_[i].x, y + shifts_[i].y};
-      if (moves[i] != 0 && boundsOf(labels_.size).contains(to) &&
+  [[nodiscard]] bool isHidden(int x, int y, size_t region) const {
+    size_t by = moves_.size();
+    for (size_t i = 0; i < moves_.size(); ++i) {
+      const Point to{x + own_[i].shift.x, y + own_[i].shift.y};
+      if (moves_[i] != 0 && boundsOf(labels_.size).contains(to) &&
           labels_.ids.at(to.x, to.y) == i + 1)
         by = i;
     }
-    if (by == moves.size() || by == region) return false;
-    return moves[region] == 0 || absDiff(shifts_[by].x, shift.x) > 1 ||
-           absDiff(shifts_[by].y, shift.y) > 1;
+    return by != moves_.size() && by != region;
   }
 
-  /// 1 where the shift is clearly better, −1 where it is clearly worse.
-  [[nodiscard]] int gains(size_t region, Point shift, const std::vector<uint8_t>& moves) const {
-    if (shift == Point{}) return 0;
-    uint64_t still = 0, moved = 0, pixels = 0;
-    for (int y = 0; y < labels_.size.height; ++y)
-      for (int x = 0; x < labels_.size.width; ++x) {
+  /// Over six of eight bands along the shift.
+  [[nodiscard]] Sums compare(size_t region, Point shift) const {
+    const Box& box = motion_.graph->regions[region].box;
+    std::array<Sums, 8> bands;
+    Sums all;
+    const auto add = [&](Sums& sums, int still, int moved) {
+      sums.still += still;
+      sums.moved += moved;
+      ++sums.pixels;
+    };
+    for (int y = box.y; y < box.bottom(); ++y)
+      for (int x = box.x; x < box.right(); ++x) {
         const Point from{x - shift.x, y - shift.y};
         if (labels_.ids.at(x, y) != region + 1 || !isShown(x, y) || !isShown(from.x, from.y) ||
-            isHidden(x, y, region, shift, moves))
+            isHidden(x, y, region))
           continue;
-        still += static_cast<uint64_t>(absDiff(now_.at(x, y), expected(x, y)));
-        moved += static_cast<uint64_t>(absDiff(now_.at(x, y), expected(from.x, from.y)));
-        ++pixels;
+        const int still = absDiff(now_.at(x, y), expected(x, y));
+        const int moved = absDiff(now_.at(x, y), expected(from.x, from.y));
+        size_t band = 0;
+        if (std::abs(shift.x) >= std::abs(shift.y))
+          band = static_cast<size_t>(8 * (y - box.y) / box.height);
+        else
+          while (x >= box.x + static_cast<int>(band + 1) * box.width / 8) ++band;
+        add(bands[band], still, moved);
+        add(all, still, moved);
       }
-    const auto isLess = [&](uint64_t a, uint64_t b) {
-      return a + pixels / 4 < b && (b - a) * (b - a) * pixels > 18 * a * a;
-    };
-    return isLess(moved, still) ? 1 : isLess(still, moved) ? -1 : 0;
+    Sums best = bands[0];
+    int64_t most = INT64_MIN;
+    for (size_t i = 0; i + 1 < bands.size(); ++i) {
+      const Sums &a = bands[i], &b = bands[i + 1];
+      const int64_t gain = a.still + b.still - a.moved - b.moved;
+      if (gain > most) best = {a.still + b.still, a.moved + b.moved, a.pixels + b.pixels};
+      most = std::max(most, gain);
+    }
+    if (best.pixels == all.pixels) return all;
+    return {all.still - best.still, all.moved - best.moved, all.pixels - best.pixels};
   }
 
-  void tryNeighbours() {
-    const Graph& graph = *motion_.graph;
-    auto moves = moves_;
-    auto shifts = shifts_;
-    for (size_t i = 0; i < moves.size(); ++i) {
-      uint32_t border = 0, moving = 0, longest = 0;
-      uint64_t area = 0;
-      size_t neighbour = 0;
-      for (const Arc& arc : graph.arcs) {
-        if (arc.a != i + 1 && arc.b != i + 1) continue;
-        const size_t other = static_cast<size_t>(arc.a == i + 1 ? arc.b : arc.a) - 1;
-        border += arc.borderPx;
-        if (moves_[other] == 0) continue;
-        moving += arc.borderPx;
-        area += graph.regions[other].areaPx;
-        if (arc.borderPx > longest) neighbour = other;
-        longest = std::max(longest, arc.borderPx);
-      }
-      if (moves_[i] != 0 || longest == 0 || shifts_[neighbour] == Point{}) continue;
-      const int gain = gains(i, shifts_[neighbour], moves_);
-      const bool isSurrounded = 2 * moving > border && graph.regions[i].areaPx <= area;
-      if (gain < 0 || (gain == 0 && !isSurrounded)) continue;
-      moves[i] = 1;
-      shifts[i] = shifts_[neighbour];
+  void tryShifts(const std::vector<Point>& shifts, bool isSearched) {
+    std::vector<Sums> sums(shifts.size());
+    int64_t noise = 0, pixels = 0;
+    for (size_t i = 0; i < shifts.size(); ++i) {
+      if (shifts[i] == Point{}) continue;
+      sums[i] = compare(i, shifts[i]);
+      noise += std::min(sums[i].still, sums[i].moved);
+      pixels += sums[i].pixels;
     }
-    moves_ = moves;
-    shifts_ = shifts;
+    if (isSearched) noise_ = std::max<int64_t>(16, 16 * noise / pixels);
+    const auto before = moves_;
+    for (size_t i = 0; i < shifts.size(); ++i) {
+      if (shifts[i] == Point{}) continue;
+      const Sums& s = sums[i];
+      own_[i] = {shifts[i], 256 * 16 * (s.still - s.moved - s.pixels / 4) / noise_ -
+                                256 * (isSearched ? 4 : 1) *
+                                    int64_t{integerSqrt(static_cast<uint64_t>(s.pixels))}};
+      int64_t sides = 0;  // What moving gains at the borders, less what it costs.
+      for (const Arc& arc : motion_.graph->arcs)
+        if (arc.a == i + 1 || arc.b == i + 1)
+          sides += (before[static_cast<size_t>(arc.a == i + 1 ? arc.b : arc.a) - 1] != 0 ? 1 : -1) *
+                   (int64_t{arc.borderPx} + 1);
+      moves_[i] = 256 * sides + own_[i].gain > 0;
+    }
+  }
+
+  /// Of what moves and shares most of the border of what does not.
+  [[nodiscard]] std::vector<Point> neighboursShifts() const {
+    std::vector<Point> shifts(moves_.size());
+    std::vector<uint32_t> longest(moves_.size());
+    const auto see = [&](size_t region, size_t other, uint32_t border) {
+      if (moves_[region] != 0 || moves_[other] == 0 || border <= longest[region]) return;
+      longest[region] = border;
+      shifts[region] = own_[other].shift;
+    };
+    for (const Arc& arc : motion_.graph->arcs) {
+      see(arc.a - 1u, arc.b - 1u, arc.borderPx);
+      see(arc.b - 1u, arc.a - 1u, arc.borderPx);
+    }
+    return shifts;
   }
 
   const Motion& motion_;
@@ -216,8 +288,9 @@ class Plainly {
   ImageView<const uint8_t> now_;
   RegionMotion camera_;
   ImageView<const uint8_t> before_;
+  std::vector<OwnMotion> own_;
   std::vector<uint8_t> moves_;
-  std::vector<Point> shifts_;
+  int64_t noise_ = 16;
 };
 
 /// Ragged tiles, some of which move otherwise than the camera, with vectors right and wrong.
@@ -255,13 +328,14 @@ TEST(OwnMotion, IsThatOfEachPixelOnEveryTargetAndNumberOfThreads) {
       motion.regions.push_back({camera.dx + step.x * 16 + tile % 5, camera.dy + step.y * 16, 0, 9});
     }
     const auto expected = Plainly(motion, *previous, camera).run();
-    movers += static_cast<int>(std::count(expected.begin(), expected.end(), 1));
+    movers += static_cast<int>(std::count_if(expected.begin(), expected.end(),
+                                             [](const OwnMotion& own) { return own.gain > 0; }));
     test::forEachTargetAndThreads([&](const std::shared_ptr<const Executor>& executor) {
       OwnMotionScratch scratch;
-      std::vector<uint8_t> moves;
+      std::vector<OwnMotion> own;
       for (int frame = 0; frame < 2; ++frame)
-        findOwnMotion(motion, previous->luma(), {camera, kMotionUnit}, *executor, scratch, moves);
-      EXPECT_EQ(moves, expected);
+        findOwnMotion(motion, previous->luma(), {camera, {}, {}, {}}, *executor, scratch, own);
+      EXPECT_EQ(own, expected);
     });
   }
   EXPECT_GT(movers, 20);

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "core/ground_merge.hpp"
+
+#include <algorithm>
+
+namespace rg {
+namespace {
+
+/// Returns the number of nodes.
+uint32_t listNodes(const GroundTies& ties, GroundScratch& s) {
+  const auto ground = static_cast<uint32_t>(std::count_if(
+      ties.own.begin(), ties.own.end(), [](const OwnMotion& own) { return own.isTried(); }));
+  s.nodeOf.clear();
+  uint32_t count = 0;
+  for (const OwnMotion& own : ties.own) s.nodeOf.push_back(own.isTried() ? count++ : ground);
+  return ground + 1;
+}
+
+void listArcs(const Graph& graph, std::span<const ArcEnergy> arcs, const GroundTies& ties,
+              uint32_t ground, GroundScratch& s) {
+  s.arcs.clear();
+  s.arcs.reserve(graph.arcs.size() + ground);
+  for (size_t i = 0; i < graph.arcs.size(); ++i) {
+    const auto [low, high] =
+        std::minmax(s.nodeOf[graph.arcs[i].a - 1u], s.nodeOf[graph.arcs[i].b - 1u]);
+    if (low != high) s.arcs.push_back({low, high, arcs[i].weight()});
+  }
+  for (size_t r = 0; r < ties.own.size(); ++r)
+    if (ties.own[r].isTried()) s.arcs.push_back({s.nodeOf[r], ground, ties.energies[r].weight()});
+}
+
+}  // namespace
+
+uint32_t minimiseWithGround(const Graph& graph, std::span<const ArcEnergy> arcs,
+                            const GroundTies& ties, GroundScratch& s, MergeScratch& merging,
+                            std::vector<uint32_t>& groupOf) {
+  const uint32_t nodes = listNodes(ties, s), ground = nodes - 1;
+  const uint32_t startOfGround = *std::max_element(groupOf.begin(), groupOf.end()) + 1;
+  s.groupOfNode.assign(nodes, startOfGround);
+  for (size_t r = 0; r < groupOf.size(); ++r)
+    if (ties.own[r].isTried() && ties.moves[r] != 0) s.groupOfNode[s.nodeOf[r]] = groupOf[r];
+  listArcs(graph, arcs, ties, ground, s);
+  minimise(nodes, s.arcs, merging, s.groupOfNode);
+  s.numberOf.assign(nodes, kNoGroup);
+  uint32_t count = 0;
+  for (size_t r = 0; r < groupOf.size(); ++r) {
+    uint32_t& number = s.numberOf[s.groupOfNode[s.nodeOf[r]]];
+    if (number == kNoGroup) number = count++;
+    groupOf[r] = number;
+  }
+  return s.numberOf[s.groupOfNode[ground]];
+}
+
+}  // namespace rg

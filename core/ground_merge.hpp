@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Merging regions with the ground as one more node of their graph, under a moving camera (part of
+// stage 5, core/mrf_merge.hpp).
+//
+// Regions that no other motion was tried on are the ground's from the start, so the cost follows
+// what moves. Determinism: as minimise(); groups count from 0 in the order of their first regions.
+#pragma once
+
+#include "core/mrf_merge.hpp"
+#include "core/own_motion.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace rg {
+
+inline constexpr uint32_t kNoGroup = UINT32_MAX;
+
+/// What is known of each region.
+struct GroundTies {
+  std::span<const GroundEnergy> energies;
+  std::span<const OwnMotion> own;
+  std::span<const uint8_t> moves;  ///< A guess, where the search starts.
+};
+
+struct GroundScratch {
+  std::vector<uint32_t> nodeOf;  ///< Of each region; the ground is the last node.
+  std::vector<WeightedArc> arcs;
+  std::vector<uint32_t> groupOfNode;
+  std::vector<uint32_t> numberOf;
+};
+
+/// arcs: of the graph, as weighArcs() made them. groupOf: a start on entry, one entry per region,
+/// where things that don't move count as the ground whatever it says. Returns the ground's group,
+/// kNoGroup where it has no region.
+uint32_t minimiseWithGround(const Graph& graph, std::span<const ArcEnergy> arcs,
+                            const GroundTies& ties, GroundScratch& scratch, MergeScratch& merging,
+                            std::vector<uint32_t>& groupOf);
+
+}  // namespace rg
