@@ -108,7 +108,7 @@ void BorderPixels::pack(int cellRow, CellLine& line) const {
 
 void BorderPixels::refineRow(int cellRow, Scratch& scratch) const {
   const auto line = [&](int row) { return scratch.lines[static_cast<size_t>(row % 3)].cells(); };
-  const simd::ThreeRows lines{line(cellRow + 2), line(cellRow), line(cellRow + 1)};
+  const simd::CellRows lines{line(cellRow + 2), line(cellRow), line(cellRow + 1)};
   simd::findSides(lines, cells_.size.width,
                   {scratch.own.data(), scratch.other.data(), scratch.others.data()});
   comparePairs(cellRow, scratch);
@@ -164,7 +164,7 @@ void BorderPixels::chooseRows(int cellRow, bool isDivided, Scratch& scratch) con
   }
 }
 
-void BorderPixels::collect(int cellX, const simd::ThreeRows& lines, Found& found) {
+void BorderPixels::collect(int cellX, const simd::CellRows& lines, Found& found) {
   const uint64_t own = lines.middle.keys[cellX];
   // A cell of several colours says nothing of its own region.
   found.ids[0] = idOf(own);
@@ -209,7 +209,7 @@ void BorderPixels::choose(const Found& found, Candidates& candidates) {
   }
 }
 
-void BorderPixels::refineCell(int cellX, int cellY, const simd::ThreeRows& lines) const {
+void BorderPixels::refineCell(int cellX, int cellY, const simd::CellRows& lines) const {
   Found found;
   Candidates candidates;
   collect(cellX, lines, found);

@@ -65,8 +65,8 @@ class BorderPixels {
   void refineRow(int cellRow, Scratch& scratch) const;
   void comparePairs(int cellRow, Scratch& scratch) const;
   void chooseRows(int cellRow, bool isDivided, Scratch& scratch) const;
-  void refineCell(int cellX, int cellY, const simd::ThreeRows& lines) const;
-  static void collect(int cellX, const simd::ThreeRows& lines, Found& found);
+  void refineCell(int cellX, int cellY, const simd::CellRows& lines) const;
+  static void collect(int cellX, const simd::CellRows& lines, Found& found);
   static void choose(const Found& found, Candidates& candidates);
   void clearOutOfScope(int y) const;
 

@@ -22,7 +22,6 @@ namespace {
 constexpr int kUsualThreshold = 5;  ///< Grey levels that the darkest pixel may be off.
 constexpr int kBrightness = 20;     ///< Of 256: share of the brightness that is added to it.
 constexpr int kMajority = 115;      ///< Of 256: share of foreground that keeps a pixel.
-constexpr int kMostGapStep = 14;    ///< Grey levels across a border that is no edge.
 
 constexpr uint32_t kOddShare = 16;          ///< Of 256: foreground that makes us look at the scene.
 constexpr uint32_t kLightShare = 102;       ///< Of 256: foreground that asks for a reason.
@@ -203,7 +202,7 @@ void HybridBackground::clean(const BackgroundJob& job) {
   keepMajority(verdicts_.raw, radius, kMajority, job.executor, scratch_, mask_);
   keepSupported(mask_, verdicts_.strong, leastStrongPx(pixels), scratch_);
   fillHoles(mask_, pixels / 50, scratch_);
-  fillUnedged(smooth_.planes[0], kMostGapStep, pixels / 5, job.executor, gaps_, mask_);
+  fillUnedged(smooth_.planes[0], kMostGapStep, mostGapPx(mask_.size()), job.executor, gaps_, mask_);
   if (!isFirst(job)) refine(job);
   dropSmallParts(mask_, std::max(8u, pixels / 4000), scratch_);
 }

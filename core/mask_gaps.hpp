@@ -15,6 +15,12 @@
 
 namespace rg {
 
+/// What counts as a gap wherever one is closed.
+inline constexpr int kMostGapStep = 14;  ///< Grey levels across a border that is no edge.
+[[nodiscard]] constexpr uint32_t mostGapPx(Size frame) {
+  return static_cast<uint32_t>(frame.area() / 5);
+}
+
 struct GapContour {
   uint32_t edgePixels = 0;  ///< Where the picture has an edge across the border.
   uint32_t pixels = 0;

@@ -182,11 +182,9 @@ ImageView<const uint8_t> CpuSegmentation::chooseScope(const Picture& picture,
 /// behind it has holes in the foreground.
 ImageView<const uint8_t> CpuSegmentation::closeGaps(const Picture& picture,
                                                     const Foreground& foreground) {
-  constexpr int kMostStep = 14;       // Grey levels across a border that is no edge.
-  constexpr uint32_t kMostShare = 5;  // A gap has at most this share of the frame.
   packEqual(foreground.mask, kForegroundPixel, whole_);
-  const auto pixels = static_cast<uint32_t>(picture.size().area());
-  if (!fillUnedged(picture.green(), kMostStep, pixels / kMostShare, *context_.cpu, gaps_, whole_))
+  if (!fillUnedged(picture.green(), kMostGapStep, mostGapPx(picture.size()), *context_.cpu, gaps_,
+                   whole_))
     return foreground.mask;
   scope_.resize(picture.size());
   scope_.fill(kBackgroundPixel);

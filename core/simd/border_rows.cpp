@@ -39,7 +39,7 @@ void take(const PackedCells& cells, int at, V own, Sums& sums) {
   sums.allKeys = hn::And(sums.allKeys, hn::IfThenElse(isOther, key, hn::Set(kWords, kManySides)));
 }
 
-void findSides(const ThreeRows& cells, int count, const CellSides& sides) {
+void findSides(const CellRows& cells, int count, const CellSides& sides) {
   const V zero = hn::Zero(kWords), many = hn::Set(kWords, kManySides);
   const auto firstOf = [&](V first, V second) {
     return hn::IfThenElse(hn::Eq(first, zero), second, first);
@@ -124,7 +124,7 @@ HWY_EXPORT(repeatWords);
 HWY_EXPORT(chooseSides);
 }  // namespace
 
-void findSides(const ThreeRows& cells, int count, const CellSides& sides) {
+void findSides(const CellRows& cells, int count, const CellSides& sides) {
   HWY_DYNAMIC_DISPATCH(findSides)(cells, count, sides);
 }
 

@@ -28,10 +28,10 @@ struct CellSides {
   uint64_t* others;  ///< The other region's key; 0: there is none, kManySides: several.
 };
 inline constexpr uint64_t kManySides = ~uint64_t{0};
-struct ThreeRows {
+struct CellRows {
   PackedCells above, middle, below;
 };
-void findSides(const ThreeRows& cells, int count, const CellSides& sides);
+void findSides(const CellRows& cells, int count, const CellSides& sides);
 
 /// Each element `side` times: 2, 4 or 8.
 void repeatRow(const uint8_t* from, int count, int side, uint8_t* to);

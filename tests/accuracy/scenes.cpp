@@ -6,6 +6,7 @@
 #include "core/text/names.hpp"
 #include "tests/accuracy/painter.hpp"
 #include "tests/accuracy/verdict.hpp"
+#include "tests/support/value_of.hpp"
 
 #include <cstdio>
 #include <cstdlib>
@@ -35,13 +36,6 @@ constexpr char kUsage[] =
     "  --explain     tell which number each actor had when\n"
     "  --background  what the scene is painted on (default: a yard that follows from the seed)\n"
     "  --pictures    write frames there: the truth's boxes white, the reported ones coloured\n";
-
-template <class T>
-T valueOf(Result<T> result) {
-  if (result) return *std::move(result);
-  std::cerr << "scenes: " << result.error().message << '\n';
-  std::exit(1);
-}
 
 class Pipeline {
  public:

@@ -5,10 +5,10 @@
 #include "core/objects.hpp"
 #include "core/pool.hpp"
 #include "tests/accuracy/painter.hpp"
+#include "tests/support/value_of.hpp"
 
 #include <array>
 #include <cstdio>
-#include <cstdlib>
 #include <iostream>
 #include <map>
 #include <string>
@@ -17,13 +17,6 @@ namespace rg::truth {
 namespace {
 
 constexpr int kMixed = -2;  ///< A region of which less than three quarters are one actor's.
-
-template <class T>
-T valueOf(Result<T> result) {
-  if (result) return *std::move(result);
-  std::cerr << "terms: " << result.error().message << '\n';
-  std::exit(1);
-}
 
 /// Whose each region is: the actor that most of its pixels show, −1 for the ground.
 std::vector<int> ownersOf(const Graph& graph, const std::vector<int>& top) {

@@ -8,9 +8,7 @@
 #include "core/segmentation.hpp"
 #include "tests/benchmarks/scene.hpp"
 #include "tests/benchmarks/timing.hpp"
-
-#include <cstdlib>
-#include <iostream>
+#include "tests/support/value_of.hpp"
 
 namespace rg::bench {
 namespace {
@@ -19,13 +17,6 @@ constexpr char kLoadRow[] = "load", kBackgroundRow[] = "bgremove";
 const std::vector<std::string> kStages = {"hsvsegment", "srg", "prmmotion", "mrfmerge"};
 // The paper's milliseconds for 640x480 and 160 regions.
 constexpr double kPaperCpuMs = 1460, kPaperGpuMs = 22.81;
-
-template <class T>
-T valueOf(Result<T> result) {
-  if (result) return *std::move(result);
-  std::cerr << "bench: " << result.error().message << '\n';
-  std::exit(1);
-}
 
 class Pipeline {
  public:
@@ -119,7 +110,7 @@ Measured measure(const Options& options, Clock clock = Clock::Wall, int warmUp =
   return measured;
 }
 
-int run(const Options& options) {
+int runOnce(const Options& options) {
   const Measured measured = measure(options);
   const Pipeline::Notes& notes = measured.notes;
   std::printf("%dx%d, threads %d, frames %d, %s\n", measured.size.width, measured.size.height,
@@ -192,19 +183,14 @@ int runWorst(Options options) {
   return 0;
 }
 
+int run(const Options& options) {
+  if (options.asksTable) return runTable(options);
+  return options.asksWorst ? runWorst(options) : runOnce(options);
+}
+
 }  // namespace
 }  // namespace rg::bench
 
 int main(int argc, char** argv) {
-  const auto options = rg::bench::parseOptions({argv + 1, argv + argc});
-  if (!options) {
-    std::cerr << "bench: " << options.error().message << '\n' << rg::bench::usage("bench");
-    return 2;
-  }
-  if (options->asksHelp) {
-    std::cout << rg::bench::usage("bench");
-    return 0;
-  }
-  if (options->asksTable) return rg::bench::runTable(*options);
-  return options->asksWorst ? rg::bench::runWorst(*options) : rg::bench::run(*options);
+  return rg::bench::runProgram({argv, static_cast<size_t>(argc)}, rg::bench::run);
 }

@@ -8,14 +8,13 @@
 #include "core/segmentation.hpp"
 #include "tests/benchmarks/options.hpp"
 #include "tests/support/same_regions.hpp"
+#include "tests/support/value_of.hpp"
 
 #include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
-#include <iostream>
 
 namespace rg::bench {
 namespace {
@@ -91,13 +90,6 @@ class Scene {
   std::vector<uint8_t> bytes_;
   std::vector<Box> things_;
 };
-
-template <class T>
-T valueOf(Result<T> result) {
-  if (result) return *std::move(result);
-  std::cerr << "bench-areas: " << result.error().message << '\n';
-  std::exit(1);
-}
 
 bool isSame(const Foreground& a, const Foreground& b) {
   bool isSame = a.areas == b.areas;
@@ -200,7 +192,8 @@ void printTable(const char* title, const std::vector<std::array<double, 4>>& row
                 rows[i][2] / rows[i][3]);
 }
 
-int run(Options options) {
+int run(const Options& given) {
+  Options options = given;
   std::vector<std::array<double, 4>> motion, colour;
   Figures sum;
   for (const PaperRow& paper : kPaper) {
@@ -231,15 +224,5 @@ int run(Options options) {
 }  // namespace rg::bench
 
 int main(int argc, char** argv) {
-  const auto options = rg::bench::parseOptions({argv + 1, static_cast<size_t>(argc - 1)});
-  if (!options) {
-    std::cerr << "bench-areas: " << options.error().message << '\n'
-              << rg::bench::usage("bench-areas");
-    return 2;
-  }
-  if (options->asksHelp) {
-    std::cout << rg::bench::usage("bench-areas");
-    return 0;
-  }
-  return rg::bench::run(*options);
+  return rg::bench::runProgram({argv, static_cast<size_t>(argc)}, rg::bench::run);
 }

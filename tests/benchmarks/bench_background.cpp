@@ -18,6 +18,7 @@
 #define REGIONGRAPH_HAS_BGSEGM 1
 #endif
 
+#include <cstdlib>
 #include <iostream>
 
 namespace rg::bench {
@@ -196,15 +197,5 @@ int run(const Options& options) {
 }  // namespace rg::bench
 
 int main(int argc, char** argv) {
-  const auto options = rg::bench::parseOptions({argv + 1, argv + argc});
-  if (!options) {
-    std::cerr << "bench-background: " << options.error().message << '\n'
-              << rg::bench::usage("bench-background");
-    return 2;
-  }
-  if (options->asksHelp) {
-    std::cout << rg::bench::usage("bench-background");
-    return 0;
-  }
-  return rg::bench::run(*options);
+  return rg::bench::runProgram({argv, static_cast<size_t>(argc)}, rg::bench::run);
 }

@@ -93,15 +93,5 @@ int run(const Options& options) {
 }  // namespace rg::bench
 
 int main(int argc, char** argv) {
-  const auto options = rg::bench::parseOptions({argv + 1, argv + argc});
-  if (!options) {
-    std::cerr << "bench-peers: " << options.error().message << '\n'
-              << rg::bench::usage("bench-peers");
-    return 2;
-  }
-  if (options->asksHelp) {
-    std::cout << rg::bench::usage("bench-peers");
-    return 0;
-  }
-  return rg::bench::run(*options);
+  return rg::bench::runProgram({argv, static_cast<size_t>(argc)}, rg::bench::run);
 }

@@ -4,6 +4,7 @@
 #include "tests/benchmarks/scene.hpp"
 
 #include <charconv>
+#include <iostream>
 #include <optional>
 #include <string_view>
 
@@ -114,6 +115,20 @@ std::string usage(const std::string& program) {
          "  --shift    largest motion searched, in pixels (default 20)\n"
          "  --threads  0 = all cores (default 0)\n"
          "  --frames   measured after a warm-up (default 50)\n";
+}
+
+int runProgram(std::span<char* const> arguments, int (*run)(const Options&)) {
+  const std::string path = arguments[0], program = path.substr(path.rfind('/') + 1);
+  const auto options = parseOptions(arguments.subspan(1));
+  if (!options) {
+    std::cerr << program << ": " << options.error().message << '\n' << usage(program);
+    return 2;
+  }
+  if (options->asksHelp) {
+    std::cout << usage(program);
+    return 0;
+  }
+  return run(*options);
 }
 
 }  // namespace rg::bench

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// The command line that bench and bench-peers share.
+// The command line that the benchmarks share.
 #pragma once
 
 #include "core/geometry.hpp"
@@ -39,5 +39,9 @@ struct Options {
 [[nodiscard]] Result<Options> parseOptions(std::span<const char* const> arguments);
 
 [[nodiscard]] std::string usage(const std::string& program);
+
+/// What the benchmarks' main() does with its arguments, the program's name the first of them.
+/// Returns the exit status.
+[[nodiscard]] int runProgram(std::span<char* const> arguments, int (*run)(const Options&));
 
 }  // namespace rg::bench

@@ -2,6 +2,7 @@
 // Components of runs and the borders between them, against a flood.
 #include "core/pixel.hpp"
 #include "core/pixel_runs.hpp"
+#include "tests/core/fills.hpp"
 #include "tests/core/simd_targets.hpp"
 
 #include <array>
@@ -13,11 +14,9 @@
 namespace rg {
 namespace {
 
-constexpr Size kSizes[] = {{1, 1}, {1, 90}, {131, 1}, {64, 64}, {65, 130}, {200, 97}};
+using test::hashOf;
 
-uint32_t hashOf(int x, int y, uint32_t what) {
-  return mixHash(static_cast<uint32_t>(x), static_cast<uint32_t>(y), what);
-}
+constexpr Size kSizes[] = {{1, 1}, {1, 90}, {131, 1}, {64, 64}, {65, 130}, {200, 97}};
 
 /// Labels 0 … 5 in patches of some pixels, and single ones in between.
 Image<uint16_t> patches(Size size) {

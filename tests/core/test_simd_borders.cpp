@@ -3,6 +3,7 @@
 // widths, guards.
 #include "core/pixel.hpp"
 #include "core/simd/border_rows.hpp"
+#include "tests/core/fills.hpp"
 #include "tests/core/simd_targets.hpp"
 
 #include <algorithm>
@@ -13,13 +14,11 @@
 namespace rg {
 namespace {
 
+using test::hashOf;
+
 constexpr uint64_t kGuard = 0xA5A5A5A5A5A5A5A5;
 constexpr uint64_t kApart = 1 << 16;
 constexpr int kMostColumns = 70;
-
-uint32_t hashOf(int x, int row, uint32_t what) {
-  return mixHash(static_cast<uint32_t>(x), static_cast<uint32_t>(row), what);
-}
 
 /// A row of cells of up to `regions` regions, some of none, some in scope apart.
 struct Line {

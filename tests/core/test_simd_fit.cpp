@@ -2,7 +2,7 @@
 // The sums that motion is fitted with against plain ones: every target of this machine, cells at
 // all of the frame's edges, fills that provoke overflows.
 #include "core/fit_moments.hpp"
-#include "core/pixel.hpp"
+#include "tests/core/fills.hpp"
 #include "tests/core/simd_targets.hpp"
 
 #include <vector>
@@ -10,34 +10,9 @@
 namespace rg {
 namespace {
 
+using test::filled, test::hashOf, test::kFills;
+
 constexpr int kReach = 9;
-
-uint32_t hashOf(int x, int y, uint32_t what) {
-  return mixHash(static_cast<uint32_t>(x), static_cast<uint32_t>(y), what);
-}
-
-constexpr int kFills = 5;
-int levelAt(int fill, int x, int y) {
-  switch (fill) {
-    case 0:
-      return 255;
-    case 1:
-      return 0;
-    case 2:
-      return (x + y) % 2 * 255;
-    case 3:
-      return static_cast<int>(100 + (hashOf(x / 3, y / 3, 2) & 63) + (hashOf(x, y, 3) & 7));
-    default:
-      return static_cast<int>(hashOf(x, y, 9) & 255);
-  }
-}
-
-Image<uint8_t> filled(Size size, int fill) {
-  Image<uint8_t> image(size);
-  for (int y = 0; y < size.height; ++y)
-    for (int x = 0; x < size.width; ++x) image.at(x, y) = static_cast<uint8_t>(levelAt(fill, x, y));
-  return image;
-}
 
 std::vector<MatchedPart> partsOf(Size size) {
   std::vector<MatchedPart> parts;
@@ -86,9 +61,9 @@ TEST(SimdFit, MomentsArePlainOnes) {
 
 TEST(SimdFit, CellsArePlainOnes) {
   const Size size{31, 26};
-  const Image<uint8_t> current = filled(size, 3);
+  const Image<uint8_t> current = filled(size, 4);
   PaddedLuma previous;
-  previous.build(filled(size, 4), kReach, Executor(1));
+  previous.build(filled(size, 5), kReach, Executor(1));
   for (int y = 0; y < size.height; y += kCellSize)
     for (int x = 0; x + kBlockWidth <= size.width; x += kCellSize)
       for (const Point d : {Point{}, {kFine, 0}, {100, -700}, {-2303, 2303}}) {
