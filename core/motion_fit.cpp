@@ -23,6 +23,8 @@ constexpr int64_t kSlopeWeight = 2844;
 /// A shared change of brightness is believed as if so many pixels had seen none.
 constexpr int64_t kSteadyPixels = 16;
 constexpr int kTurns = 3;
+/// A step of which nothing is larger is the last one: 1/32 px, also of the slopes per 32 px.
+constexpr int64_t kSettled = kFine / 32;
 
 using Row = std::array<int64_t, kUnknowns>;
 
@@ -121,6 +123,10 @@ void addExpectations(const MotionFit& fit, const MotionPrior& prior, int64_t pix
   }
 }
 
+bool isSettled(const Row& step) {
+  return std::all_of(step.begin(), step.end(), [](int64_t d) { return std::abs(d) <= kSettled; });
+}
+
 /// Of at most 30 bits, its shape kept.
 Information informationOf(const Equations& e, int64_t pixels) {
   constexpr int kMostBits = 30;
@@ -172,6 +178,7 @@ MotionFit fitMotion(const FitRegion& region, const FitPlane& plane, const Motion
     fit.at = {moved(fit.at.x, step[0], start.at.x), moved(fit.at.y, step[1], start.at.y)};
     for (size_t s = 0; s < fit.slopes.size(); ++s)
       fit.slopes[s] = std::clamp(fit.slopes[s] + static_cast<int>(step[s + 2]), -kFine, kFine);
+    if (isSettled(step)) break;
   }
   return fit;
 }

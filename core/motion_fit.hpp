@@ -55,7 +55,8 @@ struct MotionFit {
   uint32_t seen = 0;    ///< That lie inside the previous frame, fitting or not.
 };
 
-/// `steps` steps from `start`, each of less than a pixel. information and misfit: before the last.
+/// At most `steps` steps from `start`, each of less than a pixel, until they are short. information
+/// and misfit: before the last.
 [[nodiscard]] MotionFit fitMotion(const FitRegion& region, const FitPlane& plane,
                                   const MotionFit& start, const MotionPrior& prior, int steps);
 

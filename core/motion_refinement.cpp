@@ -2,10 +2,10 @@
 #include "core/motion_refinement.hpp"
 
 #include "core/pixel.hpp"
-#include "core/simd/motion_rows.hpp"
 
 #include <algorithm>
 #include <cstdlib>
+#include <utility>
 
 namespace rg {
 namespace {
@@ -25,19 +25,6 @@ constexpr int64_t kHalf = kFine / 2;
 int64_t squaredDistance(Point a, Point b) {
   const int64_t dx = a.x - b.x, dy = a.y - b.y;
   return dx * dx + dy * dy;
-}
-
-/// The binomial mean of 3x3 pixels; the picture's border repeats.
-void smooth(ImageView<const uint8_t> from, const Executor& executor, Image<uint8_t>& to) {
-  const int width = from.width(), height = from.height();
-  to.resize(from.size);
-  executor.forRows(height, [&](int first, int last) {
-    for (int y = first; y < last; ++y) {
-      const simd::ThreeRows rows{from.row(std::max(y - 1, 0)), from.row(y),
-                                 from.row(std::min(y + 1, height - 1))};
-      simd::smoothRow(rows, width, to.row(y));
-    }
-  });
 }
 
 /// What is left of a reliability: little where the pixels don't fit, where the neighbours expect
@@ -90,11 +77,9 @@ void MotionRefinement::run(const Graph& graph, const MatchedBlocks& blocks, cons
                            std::span<RegionMotion> motion) {
   graph_ = &graph;
   blocks_ = &blocks;
-  smooth(before.luma(), executor, smoothBefore_);
-  smoothPrevious_.build(smoothBefore_, previous.reach(), executor);
-  smooth(graph.labels->picture->luma(), executor, smoothCurrent_);
+  smooth(before, previous.reach(), executor);
   planes_ = {FitPlane{graph.labels->picture->luma(), &previous},
-             FitPlane{smoothCurrent_, &smoothPrevious_}};
+             FitPlane{smoothCurrent_.inside(), &smoothPrevious_}};
   alone_.resize(motion.size());
   own_.resize(motion.size());
   const auto count = static_cast<int>(motion.size());
@@ -117,6 +102,15 @@ void MotionRefinement::run(const Graph& graph, const MatchedBlocks& blocks, cons
     result.dx = static_cast<int>(divideRounded(fit.at.x, kFinePerUnit));
     result.dy = static_cast<int>(divideRounded(fit.at.y, kFinePerUnit));
   });
+}
+
+// What was the current picture last time is mostly the previous one now.
+void MotionRefinement::smooth(const Picture& before, int reach, const Executor& executor) {
+  std::swap(smoothCurrent_, smoothPrevious_);
+  if (smoothOf_.get() != &before || smoothPrevious_.reach() != reach)
+    smoothPrevious_.buildSmooth(before.luma(), reach, executor);
+  smoothOf_ = graph_->labels->picture;
+  smoothCurrent_.buildSmooth(smoothOf_->luma(), reach, executor);
 }
 
 FitRegion MotionRefinement::regionOf(size_t i, std::span<const RegionMotion> motion) const {

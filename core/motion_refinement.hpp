@@ -15,6 +15,7 @@
 #include "core/region_motion.hpp"
 
 #include <array>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -33,6 +34,7 @@ class MotionRefinement {
     uint8_t plane = 0;
   };
 
+  void smooth(const Picture& before, int reach, const Executor& executor);
   [[nodiscard]] FitRegion regionOf(size_t i, std::span<const RegionMotion> motion) const;
   [[nodiscard]] Candidate fitAlone(const FitRegion& region, const RegionMotion& motion) const;
   [[nodiscard]] MotionFit fitTogether(const FitRegion& region, const Candidate& own,
@@ -40,8 +42,8 @@ class MotionRefinement {
 
   const Graph* graph_ = nullptr;
   const MatchedBlocks* blocks_ = nullptr;
-  Image<uint8_t> smoothCurrent_, smoothBefore_;
-  PaddedLuma smoothPrevious_;
+  PaddedLuma smoothCurrent_, smoothPrevious_;
+  std::shared_ptr<const Picture> smoothOf_;  ///< Whose smooth luma smoothCurrent_ holds.
   std::array<FitPlane, 2> planes_;
   std::vector<Candidate> alone_;
   std::vector<OwnMotion> own_;

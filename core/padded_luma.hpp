@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// The previous luma with its border repeated, and the sums of its boxes (part of stage 4).
+// A luma with its border repeated, and the sums of its boxes (part of stage 4).
 #pragma once
 
 #include "core/executor.hpp"
@@ -17,6 +17,8 @@ class PaddedLuma {
   static constexpr int kSlack = 64;
 
   void build(ImageView<const uint8_t> luma, int reach, const Executor& executor);
+  /// Of the binomial means of 3x3 pixels.
+  void buildSmooth(ImageView<const uint8_t> luma, int reach, const Executor& executor);
 
   [[nodiscard]] int reach() const { return reach_; }
   /// Pixel (x, y) of the luma and those right of it; both may lie outside by `reach`.
@@ -25,9 +27,15 @@ class PaddedLuma {
   }
   [[nodiscard]] ptrdiff_t stride() const { return rows_.view().strideBytes; }
   [[nodiscard]] ImageView<const uint8_t> rows() const { return rows_; }
+  /// Without the padding.
+  [[nodiscard]] ImageView<const uint8_t> inside() const { return {along(0, 0), size_, stride()}; }
 
  private:
+  template <class FillRow>
+  void fill(Size size, int reach, const Executor& executor, const FillRow& fillRow);
+
   int reach_ = 0;
+  Size size_;
   Image<uint8_t> rows_;
 };
 

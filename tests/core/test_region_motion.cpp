@@ -290,6 +290,30 @@ TEST(RegionMotion, FractionsAreTheSameForAnyNumberOfThreads) {
   }
 }
 
+// What a stage keeps from frame to frame is of the previous one, whatever was searched there.
+TEST(RegionMotion, DoesNotDependOnFramesBeforeThePreviousOne) {
+  const Size size{96, 80};
+  const LabelAt tiles = [](int x, int y) { return 1 + x / 24 + y / 20 * 4; };
+  const auto graphAt = [&](double d) {
+    return graphOf(label(movedTexture(size, d, -d / 2), 16, tiles));
+  };
+  const auto first = graphAt(0), second = graphAt(1.5), third = graphAt(4.25);
+  const auto stage = makeMotionStage(contextWith(2));
+  for (const auto& graph : {first, second}) ASSERT_TRUE(stage->process(graph, {8, true}));
+  for (const int reach : {8, 13}) {
+    const auto fresh = makeMotionStage(contextWith(2));
+    ASSERT_TRUE(fresh->process(second, {}));
+    const auto expected = *fresh->process(third, {reach, true});
+    const auto found = *stage->process(third, {reach, true});
+    for (size_t i = 0; i < expected->regions.size(); ++i) {
+      EXPECT_EQ(found->regions[i].dx, expected->regions[i].dx);
+      EXPECT_EQ(found->regions[i].dy, expected->regions[i].dy);
+      EXPECT_EQ(found->regions[i].reliability, expected->regions[i].reliability);
+    }
+    ASSERT_TRUE(stage->process(second, {8, true}));
+  }
+}
+
 TEST(RegionMotion, WithoutAPreviousFrameAllVectorsAreZero) {
   const auto graph =
       graphOf(label(greyNoise({20, 20}, 1), 2, [](int x, int) { return 1 + x / 10; }));
