@@ -126,6 +126,7 @@ void Absorption::findBest() {
 void Absorption::contract() {
   const auto count = static_cast<uint32_t>(regions_.size());
   parents_.resize(count);
+  hasGrown_.assign(count, 0);
   const auto chosen = [&](uint32_t i) {
     return best_[i] == kNoChoice ? i : static_cast<uint32_t>(best_[i]);
   };
@@ -144,6 +145,7 @@ void Absorption::contract() {
     regions_[r].green += regions_[i].green;
     regions_[r].blue += regions_[i].blue;
     regions_[r].areaPx += regions_[i].areaPx;
+    hasGrown_[r] = 1;
     forest_[regions_[i].representative] = regions_[r].representative;
   }
 }
@@ -156,7 +158,7 @@ void Absorption::numberKept() {
   for (uint32_t i = 0; i < count; ++i) {
     if (parents_[i] != i) continue;
     if (kept != i) regions_[kept] = regions_[i];
-    means_[kept] = meanOf(regions_[kept]);
+    means_[kept] = hasGrown_[i] != 0 ? meanOf(regions_[kept]) : means_[i];
     numbers_[i] = kept++;
   }
   for (uint32_t i = 0; i < count; ++i) {

@@ -71,6 +71,7 @@ class Absorption {
   std::vector<uint32_t> forest_;  ///< Initial region → one nearer to its representative.
   std::vector<uint32_t> perimeters_;
   std::vector<uint8_t> chooses_;   ///< Regions that look for a neighbour in this round.
+  std::vector<uint8_t> hasGrown_;  ///< Regions that others went to in this round.
   std::vector<uint64_t> best_;     ///< Least key of each of those.
   std::vector<uint32_t> parents_;  ///< Where each region goes in this round.
   std::vector<uint32_t> numbers_;  ///< New number of each region after the round.

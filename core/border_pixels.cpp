@@ -8,20 +8,18 @@
 namespace rg {
 namespace {
 
-constexpr int kLaneBits = 16;
-
 /// ⌈2^16 / n⌉: exact divisors of sums of up to nine bytes.
 constexpr uint32_t kReciprocals[] = {0, 65536, 32768, 21846, 16384, 13108, 10923, 9363, 8192, 7282};
 
 uint8_t meanOf(uint64_t packed, int channel) {
-  const auto count = static_cast<uint32_t>(packed >> (3 * kLaneBits));
-  const auto sum = static_cast<uint32_t>(packed >> (channel * kLaneBits) & 0xFFFF);
+  const auto count = static_cast<uint32_t>(packed >> (3 * simd::kLaneBits));
+  const auto sum = static_cast<uint32_t>(packed >> (channel * simd::kLaneBits) & 0xFFFF);
   return static_cast<uint8_t>((sum + count / 2) * kReciprocals[count] >> 16);
 }
 
-constexpr int kOneColour = 12;    // Largest difference of a channel within a pure cell.
-constexpr int kAlikeColours = 8;  // Largest difference of a channel.
-constexpr uint8_t kMargin = 5;    // Noise shall not decide: what is nearly as near stays.
+constexpr uint8_t kOneColour = 12;  // Largest difference of a channel within a pure cell.
+constexpr int kAlikeColours = 8;    // Largest difference of a channel.
+constexpr uint8_t kMargin = 5;      // Noise shall not decide: what is nearly as near stays.
 
 int farthestOf(const uint8_t* a, const uint8_t* b) {
   return std::max({absDiff(a[0], b[0]), absDiff(a[1], b[1]), absDiff(a[2], b[2])});
@@ -90,16 +88,11 @@ void BorderPixels::pack(int cellRow, CellLine& line) const {
     std::fill(line.keys.begin(), line.keys.end(), 0u);
     return;
   }
-  const uint8_t *red = cells_.colours[0].row(cellRow), *green = cells_.colours[1].row(cellRow);
-  const uint8_t *blue = cells_.colours[2].row(cellRow), *ranges = cells_.ranges.row(cellRow);
   const uint16_t* ids = cellIds_.row(cellRow);
-  for (size_t x = 0; x < width; ++x) {
-    const uint64_t colour = uint64_t{1} << (3 * kLaneBits) | uint64_t{blue[x]} << (2 * kLaneBits) |
-                            uint64_t{green[x]} << kLaneBits | red[x];
-    line.keys[x + 1] = ids[x];
-    line.colours[x + 1] = colour;
-    line.pures[x + 1] = ranges[x] <= kOneColour ? colour : 0;
-  }
+  simd::packCells({cells_.colours[0].row(cellRow), cells_.colours[1].row(cellRow),
+                   cells_.colours[2].row(cellRow), cells_.ranges.row(cellRow), ids},
+                  cells_.size.width, kOneColour, line.keys.data() + 1, line.colours.data() + 1,
+                  line.pures.data() + 1);
   if (cells_.scope.data == nullptr) return;
   const uint8_t* scope = cells_.scope.row(cellRow);
   for (size_t x = 0; x < width; ++x)

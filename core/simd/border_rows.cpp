@@ -14,6 +14,21 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
+void packCells(const CellPlanes& cells, int count, uint8_t pureRange, uint64_t* HWY_RESTRICT keys,
+               uint64_t* HWY_RESTRICT colours, uint64_t* HWY_RESTRICT pures) {
+  const uint8_t *HWY_RESTRICT red = cells.red, *HWY_RESTRICT green = cells.green;
+  const uint8_t *HWY_RESTRICT blue = cells.blue, *HWY_RESTRICT ranges = cells.ranges;
+  const uint16_t* HWY_RESTRICT ids = cells.ids;
+  for (int i = 0; i < count; ++i) {
+    const uint64_t colour = uint64_t{1} << (3 * kLaneBits) | uint64_t{blue[i]} << (2 * kLaneBits) |
+                            uint64_t{green[i]} << kLaneBits | uint64_t{red[i]};
+    const uint64_t isPure = ranges[i] <= pureRange ? ~uint64_t{0} : uint64_t{0};
+    keys[i] = ids[i];
+    colours[i] = colour;
+    pures[i] = colour & isPure;
+  }
+}
+
 using Words = hn::CappedTag<uint64_t, kSideLanes>;
 using V = hn::Vec<Words>;
 constexpr Words kWords;
@@ -118,11 +133,17 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace rg::simd {
 namespace {
+HWY_EXPORT(packCells);
 HWY_EXPORT(findSides);
 HWY_EXPORT(repeatBytes);
 HWY_EXPORT(repeatWords);
 HWY_EXPORT(chooseSides);
 }  // namespace
+
+void packCells(const CellPlanes& cells, int count, uint8_t pureRange, uint64_t* keys,
+               uint64_t* colours, uint64_t* pures) {
+  HWY_DYNAMIC_DISPATCH(packCells)(cells, count, pureRange, keys, colours, pures);
+}
 
 void findSides(const CellRows& cells, int count, const CellSides& sides) {
   HWY_DYNAMIC_DISPATCH(findSides)(cells, count, sides);

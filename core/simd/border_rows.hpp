@@ -10,6 +10,17 @@
 
 namespace rg::simd {
 
+/// Colours of cells, the largest difference within each, and regions.
+struct CellPlanes {
+  const uint8_t *red, *green, *blue, *ranges;
+  const uint16_t* ids;
+};
+/// Each cell in four lanes of 16 bits: its channels and a 1 to count it.
+inline constexpr int kLaneBits = 16;
+/// Writes regions as keys, colours, and those of ranges up to `pureRange` again, others as 0.
+void packCells(const CellPlanes& cells, int count, uint8_t pureRange, uint64_t* keys,
+               uint64_t* colours, uint64_t* pures);
+
 /// Findings come in vectors of up to so many cells.
 inline constexpr int kSideLanes = 8;
 /// Cells of a row. Elements −1 and `count` are read, too: 0 where there is no cell. So are

@@ -91,6 +91,35 @@ TEST(SimdBorders, BothSidesOfABorderAreSummed) {
   EXPECT_GT(many, 1000);
 }
 
+TEST(SimdBorders, CellsArePackedIntoLanes) {
+  constexpr uint8_t kPure = 12;
+  for (int count = 1; count <= kMostColumns; ++count) {
+    std::array<std::vector<uint8_t>, 4> bytes;
+    std::vector<uint16_t> ids;
+    for (int x = 0; x < count; ++x) {
+      for (int k = 0; k < 3; ++k)
+        bytes[static_cast<size_t>(k)].push_back(static_cast<uint8_t>(hashOf(x, k, 7)));
+      bytes[3].push_back(static_cast<uint8_t>(kPure - 1 + hashOf(x, 3, 7) % 3));
+      ids.push_back(static_cast<uint16_t>(hashOf(x, 4, 7)));
+    }
+    test::forEachTarget([&] {
+      std::vector<uint64_t> keys(static_cast<size_t>(count) + 1, kGuard), colours = keys;
+      std::vector<uint64_t> pures = keys;
+      simd::packCells(
+          {bytes[0].data(), bytes[1].data(), bytes[2].data(), bytes[3].data(), ids.data()}, count,
+          kPure, keys.data(), colours.data(), pures.data());
+      for (size_t x = 0; x < static_cast<size_t>(count); ++x) {
+        const uint64_t colour = bytes[0][x] + (uint64_t{bytes[1][x]} << 16) +
+                                (uint64_t{bytes[2][x]} << 32) + (uint64_t{1} << 48);
+        ASSERT_EQ(keys[x], ids[x]);
+        ASSERT_EQ(colours[x], colour);
+        ASSERT_EQ(pures[x], bytes[3][x] <= kPure ? colour : 0);
+      }
+      for (const auto* words : {&keys, &colours, &pures}) EXPECT_EQ(words->back(), kGuard);
+    });
+  }
+}
+
 TEST(SimdBorders, ElementsAreRepeated) {
   for (const int side : {2, 4, 8})
     for (const int count : {1, 3, 16, 33, kMostColumns}) {
