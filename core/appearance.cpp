@@ -5,6 +5,18 @@
 #include <numeric>
 
 namespace rg {
+namespace {
+
+/// ⌊a / chroma⌋ = a · kReciprocals[chroma] >> kReciprocalBits for a < 2^13: what is added to the
+/// exact product is then less than 2^kReciprocalBits / chroma.
+constexpr int kReciprocalBits = 21;
+constexpr auto kReciprocals = [] {
+  std::array<uint32_t, 256> table{};
+  for (uint32_t i = 1; i < table.size(); ++i) table[i] = ((1u << kReciprocalBits) + i - 1) / i;
+  return table;
+}();
+
+}  // namespace
 
 uint8_t colourBin(int red, int green, int blue) {
   constexpr int kHues = 12, kGreyFrom = 24;
@@ -16,8 +28,10 @@ uint8_t colourBin(int red, int green, int blue) {
   int hue = high == red     ? green - blue
             : high == green ? 2 * chroma + blue - red
                             : 4 * chroma + red - green;
-  hue = (2 * hue + chroma / 2 + 12 * chroma) % (12 * chroma);
-  const int bin = std::min(hue / chroma, kHues - 1);
+  hue = 2 * hue + chroma / 2;
+  if (hue < 0) hue += kHues * chroma;
+  const auto bin = static_cast<int>(
+      static_cast<uint32_t>(hue) * kReciprocals[static_cast<size_t>(chroma)] >> kReciprocalBits);
   const int isStrong = 3 * chroma > high;
   return static_cast<uint8_t>(bin * 2 + isStrong);
 }

@@ -12,15 +12,43 @@ namespace {
 constexpr int kGridLines = 192;  // A person in a wide view still spans some ten cells.
 constexpr uint8_t kUnknownBin = kColourBins - 1;
 
-/// Calls visit(x, y, cell) for the cells of which the middle lies in a run of pixels.
-template <class Visit>
-void forSamples(const Evidence& e, const RegionRun& run, const Visit& visit) {
-  const int cy = std::min(run.y / e.stepPx, e.grid.height - 1);
-  if (e.middleOf(0, cy).y != run.y) return;
-  for (int cx = run.begin / e.stepPx; cx < e.grid.width; ++cx) {
-    const int x = e.middleOf(cx, cy).x;
-    if (x >= run.end) return;
-    if (x >= run.begin) visit(x, int{run.y}, e.at(cx, cy));
+/// Where each pixel of an axis is among the middles of the cells.
+template <class MiddleOf>
+void listCells(int pixels, int cells, const MiddleOf& middleOf, std::vector<uint16_t>& cellFrom) {
+  cellFrom.resize(static_cast<size_t>(pixels) + 1);
+  int cell = 0;
+  for (int i = 0; i <= pixels; ++i) {
+    while (cell < cells && middleOf(cell) < i) ++cell;
+    cellFrom[static_cast<size_t>(i)] = static_cast<uint16_t>(cell);
+  }
+}
+
+void layGrid(Size frame, Evidence& e) {
+  if (e.frame == frame && !e.cellFromRow.empty()) return;
+  e.frame = frame;
+  e.stepPx = std::max(1, std::min(frame.width, frame.height) / kGridLines);
+  e.grid = {(frame.width + e.stepPx - 1) / e.stepPx, (frame.height + e.stepPx - 1) / e.stepPx};
+  listCells(
+      frame.width, e.grid.width, [&](int x) { return e.middleOf(x, 0).x; }, e.cellFromColumn);
+  listCells(
+      frame.height, e.grid.height, [&](int y) { return e.middleOf(0, y).y; }, e.cellFromRow);
+}
+
+/// The cells whose middles lie in a run of pixels.
+RegionRun cellsIn(const Evidence& e, const RegionRun& run) {
+  const uint16_t y = e.cellFromRow[run.y];
+  if (e.cellFromRow[run.y + 1u] == y) return {};
+  return {y, e.cellFromColumn[run.begin], e.cellFromColumn[run.end]};
+}
+
+void findBins(const Picture& picture, const RegionRun& cells, Evidence& e) {
+  const int y = e.middleOf(0, cells.y).y;
+  const uint8_t *red = picture.red().row(y), *green = picture.green().row(y);
+  const uint8_t* blue = picture.blue().row(y);
+  uint8_t* bins = e.bin.data() + e.at(0, cells.y);
+  for (int cell = cells.begin; cell < cells.end; ++cell) {
+    const int x = e.middleOf(cell, 0).x;
+    bins[cell] = colourBin(red[x], green[x], blue[x]);
   }
 }
 
@@ -32,9 +60,7 @@ constexpr int kLeastApart =
 void gather(const Graph& graph, std::span<const uint32_t> groupOf,
             std::span<const uint8_t> isBackground, std::span<const uint32_t> expectedOf,
             Evidence& e) {
-  e.frame = graph.size;
-  e.stepPx = std::max(1, std::min(e.frame.width, e.frame.height) / kGridLines);
-  e.grid = {(e.frame.width + e.stepPx - 1) / e.stepPx, (e.frame.height + e.stepPx - 1) / e.stepPx};
+  layGrid(graph.size, e);
   const auto cells = static_cast<size_t>(e.grid.area());
   e.group.assign(cells, 0);
   e.bin.assign(cells, kUnknownBin);
@@ -44,15 +70,16 @@ void gather(const Graph& graph, std::span<const uint32_t> groupOf,
   for (size_t region = 0; region < groupOf.size(); ++region) {
     const uint32_t group = groupOf[region];
     if (isBackground[group]) continue;
-    const auto sample = [&](int x, int y, size_t cell) {
-      e.group[cell] = static_cast<uint16_t>(group + 1);
-      ++e.cellsOf[group];
-      e.expected[cell] = static_cast<uint16_t>(expectedOf[region]);
-      if (picture)
-        e.bin[cell] =
-            colourBin(picture->red().at(x, y), picture->green().at(x, y), picture->blue().at(x, y));
-    };
-    for (const RegionRun& run : graph.runs.of(region)) forSamples(e, run, sample);
+    for (const RegionRun& run : graph.runs.of(region)) {
+      const RegionRun found = cellsIn(e, run);
+      const int count = found.end - found.begin;
+      if (count == 0) continue;
+      const size_t first = e.at(found.begin, found.y);
+      std::fill_n(e.group.data() + first, count, static_cast<uint16_t>(group + 1));
+      std::fill_n(e.expected.data() + first, count, static_cast<uint16_t>(expectedOf[region]));
+      e.cellsOf[group] += static_cast<uint32_t>(count);
+      if (picture) findBins(*picture, found, e);
+    }
   }
   e.listRuns();
 }

@@ -29,15 +29,19 @@ struct Evidence {
   std::vector<RegionRun> runs;  ///< Of the cells that are no background, of one group each. Row by
                                 ///< row: what walks them costs nothing where nothing is.
   std::vector<uint16_t> runBegins;  ///< Scratch.
-  Point camera;                     ///< Its motion since the previous frame, in 1/16 px.
+  /// For each row and column of pixels the first cell whose middle does not come before it; one
+  /// entry more than there are pixels.
+  std::vector<uint16_t> cellFromRow, cellFromColumn;
+  Point camera;  ///< Its motion since the previous frame, in 1/16 px.
   /// What stands still is background, whatever it is, and groups are things: two that touch are
   /// told apart by their motion.
   bool showsMovers = false;
 
   /// The pixel that cell (x, y) shows.
   [[nodiscard]] Point middleOf(int x, int y) const {
-    return {std::min(x * stepPx + stepPx / 2, frame.width - 1),
-            std::min(y * stepPx + stepPx / 2, frame.height - 1)};
+    const int half = stepPx / 2;
+    return {std::min(x * stepPx + half, frame.width - 1),
+            std::min(y * stepPx + half, frame.height - 1)};
   }
   [[nodiscard]] size_t at(int x, int y) const {
     return static_cast<size_t>(y) * static_cast<size_t>(grid.width) + static_cast<size_t>(x);

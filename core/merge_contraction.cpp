@@ -4,6 +4,7 @@
 #include "core/forest.hpp"
 #include "core/pixel.hpp"
 
+#include <algorithm>
 #include <numeric>
 #include <tuple>
 
@@ -14,6 +15,7 @@ constexpr uint32_t kNone = UINT32_MAX;
 constexpr int kMutualRounds =
     24;  // Random weights need under 20; a chain of rising ones any number.
 constexpr int kMaxRounds = 64;
+constexpr size_t kManyShare = 16;  // Of all groups.
 
 /// A group is called by its smallest node here, where groupOf has its name. Its neighbours lie
 /// where those of its nodes lay, in a chain of their places; they get fewer only, so there is
@@ -35,6 +37,7 @@ class Contraction {
 
  private:
   using Link = WeightedArc;
+  using TieKey = std::tuple<uint32_t, uint32_t, uint32_t>;
 
   /// Every node alone, then joined as `groupOf` says.
   void begin() {
@@ -117,18 +120,27 @@ class Contraction {
 
   /// Equal weights (a checkerboard) must not queue up along the groups' numbers, which would cost a
   /// round per group.
-  [[nodiscard]] auto tieKey(uint32_t a, uint32_t b) const {
+  [[nodiscard]] TieKey tieKey(uint32_t a, uint32_t b) const {
     const auto [low, high] = std::minmax(groupOf_[a], groupOf_[b]);
-    return std::tuple(mixHash(low, high, 1), low, high);
+    return {mixHash(low, high, 1), low, high};
   }
 
   void chooseBest(uint32_t group) {
     uint32_t best = kNone;
-    int64_t most = 1;
+    int64_t most = 0;
+    TieKey bestKey{};
+    bool hasKey = false;  // It is made when there is a tie.
     forLinks(group, [&](const Link& link) {
-      if (link.weight < most) return;
-      if (link.weight == most && best != kNone && tieKey(group, best) < tieKey(group, link.b))
-        return;
+      if (link.weight < most || link.weight <= 0) return;
+      if (link.weight > most) {
+        hasKey = false;
+      } else {
+        const TieKey key = tieKey(group, link.b);
+        if (!hasKey) bestKey = tieKey(group, best);
+        hasKey = true;
+        if (bestKey < key) return;
+        bestKey = key;
+      }
       best = link.b;
       most = link.weight;
     });
@@ -152,7 +164,15 @@ class Contraction {
       noteChange(std::min(a, b), std::max(a, b));
       joinGroups(a, b);
     }
-    std::erase_if(s_.changed, [&](uint32_t group) { return s_.parent[group] != group; });
+    const auto isGone = [&](uint32_t group) { return s_.parent[group] != group; };
+    if (kManyShare * s_.changed.size() < groupOf_.size()) {
+      std::erase_if(s_.changed, isGone);
+      return;
+    }
+    // Neighbours lie near each other: many are faster in the order of their numbers.
+    s_.changed.clear();
+    for (uint32_t group = 0; group < groupOf_.size(); ++group)
+      if (s_.seen[group] == s_.time && !isGone(group)) s_.changed.push_back(group);
   }
 
   /// Beside itself a joined group changes what its neighbours see: those of the higher one lose it,

@@ -202,26 +202,32 @@ void describeGroups(const Motion& motion, std::span<const uint32_t> groupOf,
 
 RegionMotion dominantMotion(const Motion& motion, VoteScratch& scratch) {
   constexpr int kReach = VoteScratch::kReach, kSide = VoteScratch::kSide;
-  scratch.cells.assign(size_t{kSide} * kSide, {});
+  scratch.cells.resize(size_t{kSide} * kSide);
   const auto cellAt = [&](int x, int y) -> VoteScratch::Cell& {
     return scratch.cells[static_cast<size_t>((y + kReach) * kSide + x + kReach)];
   };
+  Box voted;
   for (size_t i = 0; i < motion.regions.size(); ++i) {
     const RegionMotion& m = motion.regions[i];
     const int64_t weight = int64_t{motion.graph->regions[i].areaPx} * m.reliability;
+    if (weight == 0) continue;
     const auto wholePx = [](int32_t v) {
       return std::clamp(static_cast<int>(divideRounded(v, kMotionUnit)), 1 - kReach, kReach - 1);
     };
-    VoteScratch::Cell& cell = cellAt(wholePx(m.dx), wholePx(m.dy));
+    const Point at{wholePx(m.dx), wholePx(m.dy)};
+    voted = unite(voted, {at.x, at.y, 1, 1});
+    VoteScratch::Cell& cell = cellAt(at.x, at.y);
     cell.weight += weight;
     cell.momentX += weight * m.dx;
     cell.momentY += weight * m.dy;
   }
+  constexpr Box kInner{1 - kReach, 1 - kReach, kSide - 2, kSide - 2};
+  const Box near = voted.isEmpty() ? voted : intersect(inflate(voted, 1), kInner);
   RegionMotion best;
   std::tuple<int64_t, int, int, int> bestKey{0, 0, 0, 0};
-  for (int y = 1 - kReach; y < kReach; ++y)
-    for (int x = 1 - kReach; x < kReach; ++x) {
-      VoteScratch::Cell sum{};
+  for (int y = near.y; y < near.bottom(); ++y)
+    for (int x = near.x; x < near.right(); ++x) {
+      VoteScratch::Cell sum;
       for (int n = 0; n < 9; ++n) {
         const VoteScratch::Cell& cell = cellAt(x + n % 3 - 1, y + n / 3 - 1);
         sum.weight += cell.weight;
@@ -235,6 +241,8 @@ RegionMotion dominantMotion(const Motion& motion, VoteScratch& scratch) {
       best.dy = static_cast<int32_t>(divideRounded(sum.momentY, sum.weight));
       best.reliability = kFullReliability;
     }
+  for (int y = voted.y; y < voted.bottom(); ++y)
+    std::fill_n(&cellAt(voted.x, y), voted.width, VoteScratch::Cell{});
   return best;
 }
 

@@ -77,9 +77,9 @@ struct VoteScratch {
   static constexpr int kReach = 65;
   static constexpr int kSide = 2 * kReach + 1;
   struct Cell {
-    int64_t weight, momentX, momentY;
+    int64_t weight = 0, momentX = 0, momentY = 0;
   };
-  std::vector<Cell> cells;
+  std::vector<Cell> cells;  ///< All 0 between votes.
 };
 
 /// Merged regions.

@@ -4,6 +4,7 @@
 #include "core/contour.hpp"
 #include "core/ground_merge.hpp"
 #include "core/mrf_merge.hpp"
+#include "core/object_pixels.hpp"
 #include "core/own_motion.hpp"
 #include "core/pixel.hpp"
 #include "core/pool.hpp"
@@ -54,8 +55,7 @@ class CpuObjectStage final : public ObjectStage {
                    std::vector<GroundEnergy>& energies) const;
   void markSurroundings(const Graph& graph, const Objects& objects);
   void markBackground(const Graph& graph, const Objects& objects, uint32_t ground);
-  void paint(const Graph& graph, Objects& objects);
-  void paintRow(int y, const RegionRun& cells, const Graph& graph, Objects& objects);
+  void givePixels(const Graph& graph, Objects& objects);
   void describe(const Graph& graph, bool hasTime, Objects& objects);
   void nameRegions(const Graph& graph, Objects& objects);
   int64_t stepTo(FrameTime time);
@@ -77,11 +77,9 @@ class CpuObjectStage final : public ObjectStage {
   std::vector<OwnMotion> own_;  ///< Of each region, under Scope::Frame.
   GroundScratch groundScratch_;
   Evidence evidence_;
-  struct Sums {
-    uint64_t count = 0, x = 0, y = 0, red = 0, green = 0, blue = 0;
-    Point first;
-  };
-  std::vector<Sums> sums_;
+  std::vector<uint8_t> isBackgroundRegion_;
+  std::vector<ObjectSums> sums_;
+  ObjectPixelScratch pixelScratch_;
   Pool<Objects> pool_;
   FrameTime last_;
   bool hasLast_ = false;
@@ -192,49 +190,13 @@ void CpuObjectStage::markBackground(const Graph& graph, const Objects& objects, 
   if (ground != kNoGroup) isBackground_[ground] = 1;
 }
 
-/// Gives each pixel to an object: by its cell, and where that has no owner, not at all.
-void CpuObjectStage::paint(const Graph& graph, Objects& objects) {
-  sums_.assign(tracker_.tracks().size(), {});
-  objects.slots.resize(graph.size);
-  context_.cpu->forRows(graph.size.height, [&](int first, int last) {
-    for (int y = first; y < last; ++y)
-      std::fill_n(objects.slots.row(y), graph.size.width, uint16_t{0});
-  });
-  const int step = evidence_.stepPx;
-  for (auto run = evidence_.runs.begin(); run != evidence_.runs.end();) {
-    const auto end = std::find_if(run, evidence_.runs.end(),
-                                  [&](const RegionRun& other) { return other.y != run->y; });
-    const int bottom = std::min((run->y + 1) * step, graph.size.height);
-    for (int y = run->y * step; y < bottom; ++y)
-      for (auto cells = run; cells != end; ++cells) paintRow(y, *cells, graph, objects);
-    run = end;
-  }
-}
-
-/// A row of the pixels of some cells.
-void CpuObjectStage::paintRow(int y, const RegionRun& cells, const Graph& graph, Objects& objects) {
-  const Labels& labels = *graph.labels;
-  const Picture* picture = labels.picture.get();
-  const uint16_t* ids = labels.ids.row(y);
-  uint16_t* slots = objects.slots.row(y);
-  const int step = evidence_.stepPx;
-  for (int cell = cells.begin; cell < cells.end; ++cell) {
-    const uint16_t slot = tracker_.owner()[evidence_.at(cell, cells.y)];
-    if (slot == 0) continue;
-    Sums& sum = sums_[slot - 1u];
-    const int end = std::min((cell + 1) * step, graph.size.width);
-    for (int x = cell * step; x < end; ++x) {
-      if (ids[x] == kNoRegion || isBackground_[objects.regionGroup[ids[x] - 1u]]) continue;
-      slots[x] = slot;
-      if (sum.count++ == 0) sum.first = {x, y};
-      sum.x += static_cast<uint64_t>(x);
-      sum.y += static_cast<uint64_t>(y);
-      if (!picture) continue;
-      sum.red += picture->red().at(x, y);
-      sum.green += picture->green().at(x, y);
-      sum.blue += picture->blue().at(x, y);
-    }
-  }
+void CpuObjectStage::givePixels(const Graph& graph, Objects& objects) {
+  isBackgroundRegion_.resize(graph.regions.size());
+  for (size_t r = 0; r < isBackgroundRegion_.size(); ++r)
+    isBackgroundRegion_[r] = isBackground_[objects.regionGroup[r]];
+  sums_.resize(tracker_.tracks().size());
+  findObjectPixels(graph, isBackgroundRegion_, {evidence_, tracker_.owner()}, pixelScratch_,
+                   {objects.slots, sums_});
 }
 
 void CpuObjectStage::describe(const Graph& graph, bool hasTime, Objects& objects) {
@@ -243,7 +205,7 @@ void CpuObjectStage::describe(const Graph& graph, bool hasTime, Objects& objects
   for (size_t i = 0; i < tracks.size(); ++i) {
     const Track& track = tracks[i];
     Object& object = objects.objects[i];
-    const Sums& sum = sums_[i];
+    const ObjectSums& sum = sums_[i];
     object.id = track.id;
     object.state = track.state;
     object.box = track.box();
@@ -326,7 +288,7 @@ Result<std::shared_ptr<const Objects>> CpuObjectStage::process(std::shared_ptr<c
   if (evidence_.showsMovers)
     for (const Group& group : groups_) evidence_.motionOf.push_back({group.dx, group.dy});
   tracker_.update(evidence_, groups_, stepNs, tracking);
-  paint(*graph, *objects);
+  givePixels(*graph, *objects);
   describe(*graph, time.isKnown, *objects);
   nameRegions(*graph, *objects);
   objects->events = tracker_.events();

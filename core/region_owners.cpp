@@ -7,23 +7,41 @@
 namespace rg {
 namespace {
 
-/// Afterwards those of track t are cells[firstCell[t]] … cells[firstCell[t + 1] − 1].
-void listCells(const Evidence& grid, std::span<const uint16_t> owner, size_t tracks,
+/// Afterwards those of track t are parts[firstPart[t]] … parts[firstPart[t + 1] − 1].
+void listParts(const Evidence& grid, std::span<const uint16_t> owner, size_t tracks,
                RegionOwnerScratch& s) {
-  s.firstCell.assign(tracks + 2, 0);
-  grid.forForeground([&](size_t cell, int, int) {
-    if (const uint16_t track = owner[cell]; track != 0) ++s.firstCell[track + 1u];
+  s.firstPart.assign(tracks + 2, 0);
+  grid.forParts(owner, [&](const RegionRun&, uint16_t track) {
+    if (track != 0) ++s.firstPart[track + 1u];
   });
-  std::partial_sum(s.firstCell.begin(), s.firstCell.end(), s.firstCell.begin());
-  s.cells.resize(s.firstCell.back());
-  grid.forForeground([&](size_t cell, int x, int y) {
-    if (const uint16_t track = owner[cell]; track != 0)
-      s.cells[s.firstCell[track]++] = grid.middleOf(x, y);
+  std::partial_sum(s.firstPart.begin(), s.firstPart.end(), s.firstPart.begin());
+  s.parts.resize(s.firstPart.back());
+  grid.forParts(owner, [&](const RegionRun& part, uint16_t track) {
+    if (track != 0) s.parts[s.firstPart[track]++] = part;
   });
 }
 
-uint16_t labelAt(const Labels& labels, Point p) {
-  return boundsOf(labels.ids.size()).contains(p) ? labels.ids.at(p.x, p.y) : kNoRegion;
+/// Calls visit(label, times) for what the middles of some cells show when they are shifted.
+template <class Visit>
+void forLabels(const Labels& labels, const Evidence& grid, const RegionRun& cells, Point shift,
+               const Visit& visit) {
+  const int y = grid.middleOf(0, cells.y).y + shift.y;
+  if (y < 0 || y >= labels.ids.height()) return;
+  const uint16_t* row = labels.ids.row(y);
+  const int width = labels.ids.width();
+  uint16_t last = kNoRegion;
+  uint32_t times = 0;
+  for (int cell = cells.begin; cell < cells.end; ++cell) {
+    const int x = grid.middleOf(cell, 0).x + shift.x;
+    const uint16_t label = x >= 0 && x < width ? row[x] : kNoRegion;
+    if (label != last) {
+      if (last != kNoRegion) visit(last, times);
+      last = label;
+      times = 0;
+    }
+    ++times;
+  }
+  if (last != kNoRegion) visit(last, times);
 }
 
 }  // namespace
@@ -31,25 +49,24 @@ uint16_t labelAt(const Labels& labels, Point p) {
 void findRegionOwners(const Labels& labels, const Evidence& grid, std::span<const uint16_t> owner,
                       std::span<const Point> shifts, RegionOwnerScratch& s,
                       std::vector<uint32_t>& ownerOf) {
-  listCells(grid, owner, shifts.size(), s);
+  listParts(grid, owner, shifts.size(), s);
   s.votes.assign(ownerOf.size(), 0);
   s.mostVotes.assign(ownerOf.size(), 0);
   std::fill(ownerOf.begin(), ownerOf.end(), 0u);
   for (size_t t = 0; t < shifts.size(); ++t) {
-    const auto forRegions = [&](auto&& visit) {
-      for (uint32_t i = s.firstCell[t]; i < s.firstCell[t + 1]; ++i)
-        if (const uint16_t label =
-                labelAt(labels, {s.cells[i].x + shifts[t].x, s.cells[i].y + shifts[t].y}))
-          visit(label - 1u);
-    };
-    forRegions([&](uint32_t region) { ++s.votes[region]; });
-    forRegions([&](uint32_t region) {
+    s.seen.clear();
+    for (uint32_t i = s.firstPart[t]; i < s.firstPart[t + 1]; ++i)
+      forLabels(labels, grid, s.parts[i], shifts[t], [&](uint16_t label, uint32_t times) {
+        if (s.votes[label - 1u] == 0) s.seen.push_back(label - 1u);
+        s.votes[label - 1u] += times;
+      });
+    for (const uint32_t region : s.seen) {
       if (s.votes[region] > s.mostVotes[region]) {
         s.mostVotes[region] = s.votes[region];
         ownerOf[region] = static_cast<uint32_t>(t + 1);
       }
       s.votes[region] = 0;
-    });
+    }
   }
 }
 

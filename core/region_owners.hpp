@@ -16,9 +16,10 @@ namespace rg {
 
 /// Working memory that keeps its capacity from frame to frame.
 struct RegionOwnerScratch {
-  std::vector<uint32_t> firstCell;
-  std::vector<Point> cells;  ///< Middles of each track's cells, one track after another.
+  std::vector<uint32_t> firstPart;
+  std::vector<RegionRun> parts;            ///< Of each track's cells, one track after another.
   std::vector<uint32_t> votes, mostVotes;  ///< Of each region.
+  std::vector<uint32_t> seen;              ///< Regions with votes.
 };
 
 /// owner: of each cell of `grid` 1 + track, 0 = none; shifts: of each track, pixels, how far its

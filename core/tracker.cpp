@@ -216,9 +216,10 @@ void Tracker::lookForTracks(const Evidence& e, int64_t stepNs) {
   }
   fitBoxes(e, tasks_, fitScratch_);
   assignCells(e, tasks_, owner_);
-  e.forForeground([&](size_t index, int, int) {
-    uint16_t& owner = owner_[index];
-    if (owner != 0) owner = static_cast<uint16_t>(taskTrack_[owner - 1u] + 1);
+  e.forParts(owner_, [&](const RegionRun& part, uint16_t task) {
+    if (task == 0) return;
+    std::fill_n(owner_.data() + e.at(part.begin, part.y), part.end - part.begin,
+                static_cast<uint16_t>(taskTrack_[task - 1u] + 1));
   });
   sightings_.assign(tracks_.size(), {});
   for (size_t t = 0; t < tasks_.size(); ++t) sightings_[taskTrack_[t]].task = static_cast<int>(t);
@@ -231,18 +232,18 @@ void Tracker::countCells(const Evidence& e) {
     if (s.task < 0) continue;
     const Box& fitted = tasks_[static_cast<size_t>(s.task)].fitted;
     const Box box = intersect(fitted, boundsOf(e.grid));
-    for (int y = box.y; y < box.bottom(); ++y)
-      for (int x = box.x; x < box.right(); ++x) {
-        const uint16_t owner = owner_[e.at(x, y)];
-        ++s.boxCells;
-        if (owner == i + 1) {
-          ++s.cells;
-          ++s.look.bins[static_cast<size_t>((y - fitted.y) * kBodyBands / fitted.height)]
-                       [e.bin[e.at(x, y)]];
-        } else if (owner != 0) {
-          ++s.othersCells;
-        }
+    s.boxCells = static_cast<uint32_t>(box.area());
+    for (int y = box.y; y < box.bottom(); ++y) {
+      auto& bins = s.look.bins[static_cast<size_t>((y - fitted.y) * kBodyBands / fitted.height)];
+      const uint16_t* owner = owner_.data() + e.at(box.x, y);
+      const uint8_t* bin = e.bin.data() + e.at(box.x, y);
+      for (int x = 0; x < box.width; ++x) {
+        const bool isMine = owner[x] == i + 1;
+        s.cells += isMine;
+        s.othersCells += !isMine && owner[x] != 0;
+        if (isMine) ++bins[bin[x]];
       }
+    }
   }
 }
 

@@ -235,7 +235,7 @@ class Tracker {
   std::vector<Majority> majorities_;
   std::vector<Piece> blobs_;  ///< Connected parts of all the foreground.
   PieceScratch blobScratch_;
-  std::vector<uint32_t> blobCells_;
+  std::vector<uint32_t> blobCells_, seenBlobs_;
   std::vector<uint32_t> blobOf_;     ///< Of each track: 1 + blob, 0 = none.
   std::vector<uint16_t> distance_;   ///< Of each cell from those that owned it first.
   std::vector<Box> limits_;          ///< Of each track, cells: beyond, nothing is part of it.

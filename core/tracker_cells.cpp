@@ -38,20 +38,20 @@ void Tracker::findBlobs(const Evidence& e) {
     const size_t track = taskTrack_[t];
     uint32_t& best = blobOf_[track];
     const Box box = intersect(tasks_[t].fitted, boundsOf(e.grid));
-    const auto forMine = [&](auto&& visit) {
-      for (int y = box.y; y < box.bottom(); ++y)
-        for (int x = box.x; x < box.right(); ++x)
-          if (owner_[e.at(x, y)] == track + 1) visit(blobScratch_.label[e.at(x, y)]);
-    };
     uint32_t most = 0;
-    forMine([&](uint32_t blob) { ++blobCells_[blob]; });
-    forMine([&](uint32_t blob) {
+    seenBlobs_.clear();
+    for (int y = box.y; y < box.bottom(); ++y)
+      for (size_t cell = e.at(box.x, y), end = cell + static_cast<size_t>(box.width); cell < end;
+           ++cell)
+        if (owner_[cell] == track + 1 && blobCells_[blobScratch_.label[cell]]++ == 0)
+          seenBlobs_.push_back(blobScratch_.label[cell]);
+    for (const uint32_t blob : seenBlobs_) {
       if (blobCells_[blob] > most || (blobCells_[blob] == most && blob < best)) {
         most = blobCells_[blob];
         best = blob;
       }
-    });
-    forMine([&](uint32_t blob) { blobCells_[blob] = 0; });
+      blobCells_[blob] = 0;
+    }
     if (best == 0) continue;
     uint16_t& sole = soleTrack_[best];
     sole = sole == 0 ? static_cast<uint16_t>(track + 1) : kSeveral;
@@ -98,11 +98,13 @@ void Tracker::limitTracks(const Evidence& e) {
 
 /// Cells that nobody has, or somebody of unknown size, go to whom their region is predicted to be.
 void Tracker::reclaimExpected(const Evidence& e) {
-  e.forForeground([&](size_t cell, int x, int y) {
-    const uint16_t expected = e.expected[cell], owner = owner_[cell];
-    if (expected == 0 || expected == owner || blobOf_[expected - 1u] != blobScratch_.label[cell])
-      return;
-    if (limits_[expected - 1u].contains({x, y})) owner_[cell] = expected;
+  e.forParts(e.expected, [&](const RegionRun& part, uint16_t expected) {
+    if (expected == 0) return;
+    const Box& limits = limits_[expected - 1u];
+    const Box cells = intersect({part.begin, part.y, part.end - part.begin, 1}, limits);
+    for (int x = cells.x; x < cells.right(); ++x)
+      if (blobScratch_.label[e.at(x, part.y)] == blobOf_[expected - 1u])
+        owner_[e.at(x, part.y)] = expected;
   });
 }
 

@@ -21,6 +21,21 @@ TEST(Appearance, EveryColourHasABin) {
         ASSERT_LT(colourBin(red, green, blue), kColourBins);
 }
 
+TEST(Appearance, AHueIsInTheTwelfthOfTheCircleThatADivisionTells) {
+  for (int low = 0; low < 200; low += 3)
+    for (int chroma = 12; chroma + low < 256; ++chroma)
+      for (int middle = 0; middle <= chroma; middle += 1 + chroma / 40) {
+        const int high = low + chroma;
+        if (8 * chroma < high) continue;
+        const int strong = 3 * chroma > high;
+        // From red by yellow, and from red by magenta.
+        const int up = (2 * middle + chroma / 2) / chroma;
+        const int down = (-2 * middle + chroma / 2 + 12 * chroma) / chroma % 12;
+        ASSERT_EQ(colourBin(high, low + middle, low), up * 2 + strong);
+        ASSERT_EQ(colourBin(high, low, low + middle), down * 2 + strong);
+      }
+}
+
 TEST(Appearance, GreysDifferByBrightnessAndColoursByHue) {
   EXPECT_NE(colourBin(20, 20, 20), colourBin(220, 220, 220));
   const std::set<int> bins{colourBin(200, 20, 20), colourBin(20, 200, 20), colourBin(20, 20, 200),
