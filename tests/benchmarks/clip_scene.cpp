@@ -81,6 +81,30 @@ class ClipScene final : public FrameSource {
   int time_ = 0;
 };
 
+class Video final : public FrameSource {
+ public:
+  Video(std::string path, cv::VideoCapture capture)
+      : path_(std::move(path)), capture_(std::move(capture)) {}
+
+  Result<bool> next(RawFrame& frame) override {
+    if (!capture_.read(picture_) && !(capture_.open(path_) && capture_.read(picture_)))
+      return Error{path_ + " can't be decoded"};
+    if (picture_.type() != CV_8UC3) return Error{path_ + ": frames are not of 8-bit colour"};
+    frame.layout.format = PixelFormat::Bgr;
+    frame.layout.size = {picture_.cols, picture_.rows};
+    frame.bytes.clear();
+    for (int y = 0; y < picture_.rows; ++y)
+      frame.bytes.insert(frame.bytes.end(), picture_.ptr(y), picture_.ptr(y) + 3 * picture_.cols);
+    return true;
+  }
+  std::string describe() const override { return "file"; }
+
+ private:
+  std::string path_;
+  cv::VideoCapture capture_;
+  cv::Mat picture_;
+};
+
 }  // namespace
 
 std::string findClip() {
@@ -107,6 +131,13 @@ Result<std::unique_ptr<FrameSource>> openClip(const std::string& path, Size size
   }
   if (frames.empty()) return Error{path + " can't be decoded"};
   std::unique_ptr<FrameSource> source = std::make_unique<ClipScene>(std::move(frames), size);
+  return source;
+}
+
+Result<std::unique_ptr<FrameSource>> openVideo(const std::string& path) {
+  cv::VideoCapture capture(path);
+  if (!capture.isOpened()) return Error{path + " can't be decoded"};
+  std::unique_ptr<FrameSource> source = std::make_unique<Video>(path, std::move(capture));
   return source;
 }
 

@@ -12,4 +12,8 @@ Result<std::unique_ptr<FrameSource>> openClip(const std::string& path, Size) {
   return Error{path + " can't be decoded: built without OpenCV"};
 }
 
+Result<std::unique_ptr<FrameSource>> openVideo(const std::string& path) {
+  return openClip(path, {});
+}
+
 }  // namespace rg::bench

@@ -44,7 +44,7 @@ constexpr NumberOption kNumbers[] = {{"--regions", &Options::regions, 1, 65535},
 bool isKnown(std::string_view name) {
   for (const NumberOption& option : kNumbers)
     if (option.name == name) return true;
-  return name == "--input" || name == "--size" || name == "--scene";
+  return name == "--input" || name == "--size" || name == "--scene" || name == "--scope";
 }
 
 bool setScene(Options& options, std::string_view value) {
@@ -56,11 +56,26 @@ bool setScene(Options& options, std::string_view value) {
   return !options.pattern.empty() || value == "clip" || value == "synthetic";
 }
 
+/// The field that an option without a value sets, or null.
+bool Options::*flagOf(std::string_view name) {
+  if (name == "--table") return &Options::asksTable;
+  if (name == "--worst") return &Options::asksWorst;
+  if (name == "--cpu") return &Options::asksCpu;
+  if (name == "--help" || name == "-h") return &Options::asksHelp;
+  return nullptr;
+}
+
+bool setScope(Options& options, std::string_view value) {
+  options.scope = value == "foreground" ? Scope::Foreground : Scope::Frame;
+  return value == "foreground" || value == "frame";
+}
+
 bool set(Options& options, std::string_view name, std::string_view value) {
   if (name == "--input") options.input = value;
   if (name == "--input") return !value.empty();
   if (name == "--size") return setSize(options.size, value);
   if (name == "--scene") return setScene(options, value);
+  if (name == "--scope") return setScope(options, value);
   for (const NumberOption& option : kNumbers) {
     if (option.name != name) continue;
     const auto parsed = number(value, option.least, option.most);
@@ -77,12 +92,9 @@ Result<Options> parseOptions(std::span<const char* const> arguments) {
   bool hasSize = false;
   for (size_t i = 0; i < arguments.size(); ++i) {
     const std::string name = arguments[i];
-    if (name == "--help" || name == "-h") {
-      options.asksHelp = true;
-      return options;
-    }
-    if (name == "--table" || name == "--worst") {
-      (name == "--table" ? options.asksTable : options.asksWorst) = true;
+    if (bool Options::*flag = flagOf(name)) {
+      options.*flag = true;
+      if (options.asksHelp) return options;
       continue;
     }
     if (!isKnown(name)) return Error{"unknown option: " + name};
@@ -99,9 +111,10 @@ Result<Options> parseOptions(std::span<const char* const> arguments) {
 
 std::string usage(const std::string& program) {
   return "usage: " + program +
-         " [--input FILE.y4m | --size WxH | --table] [--scene NAME] [--worst]\n"
-         "       [--regions N] [--min-area N] [--shift R] [--threads T] [--frames N]\n"
-         "  --input    frames to measure on (default: a scene)\n"
+         " [--input FILE | --size WxH | --table] [--scene NAME] [--worst] [--cpu]\n"
+         "       [--scope frame | foreground] [--regions N] [--min-area N] [--shift R]\n"
+         "       [--threads T] [--frames N]\n"
+         "  --input    frames to measure on: .y4m, or what OpenCV reads (default: a scene)\n"
          "  --size     of the scene (default 640x480)\n"
          "  --table    all sizes and numbers of regions that the paper has times of\n"
          "  --scene    clip: real frames with noise, of the clip that the demo uses (looked for "
@@ -110,6 +123,8 @@ std::string usage(const std::string& program) {
          "             synthetic: tiles and bodies (default: the clip where there is one);\n"
          "             flat, checkerboard, noise, comb, spiral, dots: frames made to be expensive\n"
          "  --worst    these against the scene, stage by stage\n"
+         "  --cpu      the processor's time instead of the wall's\n"
+         "  --scope    foreground: only what bgremove leaves is segmented (default: frame)\n"
          "  --regions  in the synthetic scene, and at most in the segmentation (default 160)\n"
          "  --min-area least pixels of a region (default 0: by the frame's size)\n"
          "  --shift    largest motion searched, in pixels (default 20)\n"

@@ -4,6 +4,7 @@
 
 #include "core/geometry.hpp"
 #include "core/result.hpp"
+#include "core/segmentation.hpp"
 
 #include <span>
 #include <string>
@@ -21,7 +22,7 @@ enum class SceneKind : uint8_t {
 };
 
 struct Options {
-  std::string input;  ///< A .y4m file; empty = a scene.
+  std::string input;  ///< A video; empty = a scene.
   SceneKind scene = SceneKind::Any;
   std::string pattern;     ///< Instead of a scene: one of patternNames().
   Size size{640, 480};     ///< Of the scene.
@@ -32,7 +33,9 @@ struct Options {
   bool asksTable = false;  ///< Measure the paper's sizes and numbers of regions.
   int minAreaPx = 0;       ///< Of regions; 0 = by the frame's size.
   bool asksWorst = false;  ///< Compare frames made to be expensive with those of the scene.
-  bool asksHelp = false;   ///< Print the usage and do nothing.
+  bool asksCpu = false;    ///< Measure the processor's time, not the wall's.
+  Scope scope = Scope::Frame;  ///< Foreground: as behind bgremove.
+  bool asksHelp = false;       ///< Print the usage and do nothing.
 };
 
 /// Errors name the option that is unknown, lacks its value or is out of range.

@@ -138,7 +138,8 @@ std::unique_ptr<FrameSource> makeScene(const Options& options) {
 }
 
 Result<std::unique_ptr<FrameSource>> openSource(const Options& options) {
-  if (!options.input.empty()) return openY4m(options.input);
+  if (options.input.ends_with(".y4m")) return openY4m(options.input);
+  if (!options.input.empty()) return openVideo(options.input);
   if (!options.pattern.empty()) return makePattern(options.pattern, options.size);
   if (options.scene == SceneKind::Synthetic) return makeScene(options);
   const std::string clip = findClip();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Frames to measure on: a scene, or a .y4m file.
+// Frames to measure on: a scene, or a file.
 #pragma once
 
 #include "core/frame.hpp"
@@ -44,6 +44,9 @@ class FrameSource {
 /// continued by their mirror images. Every channel of every pixel has Gaussian noise of sigma 3 of
 /// its own, anew in each frame, so that nothing stands still.
 [[nodiscard]] Result<std::unique_ptr<FrameSource>> openClip(const std::string& path, Size size);
+
+/// The frames of a video as they are, in packed BGR.
+[[nodiscard]] Result<std::unique_ptr<FrameSource>> openVideo(const std::string& path);
 
 /// Frames made to be expensive, moving or with noise of their own.
 [[nodiscard]] std::vector<std::string> patternNames();

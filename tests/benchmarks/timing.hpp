@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <ctime>
+#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,6 +20,18 @@ namespace rg::bench {
   std::sort(values.begin(), values.end());
   const size_t middle = values.size() / 2;
   return values.size() % 2 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
+}
+
+/// The least value that is not below 99 % of them; 0 of none.
+[[nodiscard]] inline double percentile99(std::vector<double> values) {
+  if (values.empty()) return 0;
+  std::sort(values.begin(), values.end());
+  return values[(values.size() * 99 + 99) / 100 - 1];
+}
+
+[[nodiscard]] inline double mean(const std::vector<double>& values) {
+  const double sum = std::accumulate(values.begin(), values.end(), 0.0);
+  return values.empty() ? 0 : sum / static_cast<double>(values.size());
 }
 
 /// What is read before and after a step.
@@ -50,8 +63,10 @@ class Timings {
   void clear() { rows_.clear(); }
 
   void printRows() const {
-    std::printf("%-14s %10s\n", "stage", "median ms");
-    for (const Row& row : rows_) std::printf("%-14s %10.3f\n", row.name.c_str(), median(row.ms));
+    std::printf("%-14s %10s %10s %10s\n", "stage", "99 % ms", "mean ms", "median ms");
+    for (const Row& row : rows_)
+      std::printf("%-14s %10.3f %10.3f %10.3f\n", row.name.c_str(), percentile99(row.ms),
+                  mean(row.ms), median(row.ms));
   }
 
   /// Median over the frames of one row; 0 if there is none.
