@@ -58,24 +58,47 @@ void Verdict::note(int actor, uint64_t id) {
     spans.push_back({frames_, frames_, id});
 }
 
+/// The listed objects that are paired with what is not to be found: as MOTChallenge does, they are
+/// taken out before anything is counted.
+std::set<uint64_t> Verdict::pairedWithHidden(const Scene& scene, const Objects& objects) {
+  std::vector<const Object*> listed;
+  for (const Object& object : objects.objects)
+    if (rg::isListed(object.state)) listed.push_back(&object);
+  constexpr int64_t kFull = 1'000'000;
+  std::vector<int64_t> costs;
+  for (const Fact& fact : scene.facts)
+    for (const Object* object : listed) {
+      const double fit = overlap(fact.box, object->box);
+      costs.push_back(fit >= kMatch ? std::llround(kFull * (1 - fit)) : kForbidden);
+    }
+  assignment_.solve(costs, static_cast<int>(scene.facts.size()), static_cast<int>(listed.size()),
+                    kFull);
+  std::set<uint64_t> paired;
+  for (size_t i = 0; i < scene.facts.size(); ++i) {
+    const int column = assignment_.columnOf(static_cast<int>(i));
+    if (column >= 0 && !isToBeFound(scene.facts[i]))
+      paired.insert(listed[static_cast<size_t>(column)]->id);
+  }
+  return paired;
+}
+
 void Verdict::add(const Scene& scene, const Objects& objects) {
+  const std::set<uint64_t> removed = pairedWithHidden(scene, objects);
   std::set<uint64_t> fitting, excused;
   for (const Fact& fact : scene.facts) {
     uint64_t best = 0;
     double most = kMatch;
     for (const Object& object : objects.objects) {
-      const bool isListed = rg::isListed(object.state);
+      const bool isListed = rg::isListed(object.state) && !removed.contains(object.id);
       const double fit = overlap(fact.box, object.box);
       if (isListed && !isToBeFound(fact) &&
           2 * sharedArea(fact.box, object.box) >= static_cast<double>(object.box.area()))
         excused.insert(object.id);
-      if (isListed && fit >= kMatch) {
-        (isToBeFound(fact) ? fitting : excused).insert(object.id);
-        if (isToBeFound(fact)) {
-          Pair& pair = pairs_[{fact.actor, object.id}];
-          ++pair.matches;
-          if (fact.visible >= kClear) pair.clear.add(distance(fact, object));
-        }
+      if (isListed && isToBeFound(fact) && fit >= kMatch) {
+        fitting.insert(object.id);
+        Pair& pair = pairs_[{fact.actor, object.id}];
+        ++pair.matches;
+        if (fact.visible >= kClear) pair.clear.add(distance(fact, object));
         if (fit > most) best = object.id;
         most = std::max(most, fit);
       }
@@ -88,7 +111,7 @@ void Verdict::add(const Scene& scene, const Objects& objects) {
     note(fact.actor, best);
   }
   for (const Object& object : objects.objects) {
-    if (!rg::isListed(object.state)) continue;
+    if (!rg::isListed(object.state) || removed.contains(object.id)) continue;
     if (!fitting.contains(object.id) && excused.contains(object.id)) continue;
     ++reports_;
     if (fitting.contains(object.id)) continue;
