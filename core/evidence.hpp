@@ -7,6 +7,7 @@
 
 #include "core/geometry.hpp"
 #include "core/mrf_merge.hpp"
+#include "core/picture.hpp"
 #include "core/region_runs.hpp"
 
 #include <algorithm>
@@ -19,6 +20,7 @@ namespace rg {
 struct Evidence {
   int stepPx = 1;  ///< Side of a cell; 1 up to 288 lines, then growing with the frame.
   Size frame;
+  const Picture* picture = nullptr;  ///< Of this frame; null where there is none.
   Size grid;
   std::vector<uint16_t> group;     ///< Of each cell: 1 + group, 0 = background. Row by row.
   std::vector<uint8_t> bin;        ///< Colour bin (core/appearance.hpp), where group is not 0.

@@ -17,7 +17,8 @@ constexpr int kUnit = kPositionUnit;
 constexpr uint32_t kTrustedSamples = 8;
 constexpr uint32_t kSteadySamples = 12;
 constexpr int64_t kCentreSamples = 31;
-constexpr uint16_t kRigidSway = 20;  // People's strides are beyond this.
+constexpr int64_t kTurn = 3 * kUnit;  // So far off a sharp portrait, it turned round.
+constexpr uint16_t kRigidSway = 20;   // People's strides are beyond this.
 
 int32_t toInt(int64_t value) {
   return static_cast<int32_t>(std::clamp<int64_t>(value, INT32_MIN / 4, INT32_MAX / 4));
@@ -28,10 +29,13 @@ struct Gains {
   int position, speed;
 };
 
-Gains gainsOf(const Track& track, const Sighting& s) {
+Gains gainsOf(const Track& track, const Sighting& s, bool isFaithful, int64_t off) {
   if (track.hits <= 2) return {16, 14};
   if (track.hits <= 4) return {14, 8};
-  if (s.isWhole) return {11, 4};
+  const bool isSharp = s.isMatched ? 2 * s.share >= 256 : s.isWhole && isFaithful;
+  if (isSharp && off > kTurn) return {16, 12};
+  if (s.isWhole || isSharp) return {11, 4};
+  if (s.isMatched) return 5 * s.share >= 256 ? Gains{8, 1} : Gains{4, 0};
   return s.isSole ? Gains{8, 1} : Gains{8, 2};
 }
 
@@ -123,7 +127,7 @@ void Tracker::advance(Track& track, int64_t stepNs) const {
   track.foot = toInt(int64_t{track.foot} + step.y);
   track.ageNs += stepNs;
   ++track.ageFrames;
-  if (before.height == 0) return;
+  if (before.height == 0 || (isFaithful(track) && !scale_.isUniform())) return;
   const Extent after = scale_.at(track.foot / kUnit);
   track.size.width = toInt(int64_t{track.size.width} * after.width / before.width);
   track.size.height = toInt(int64_t{track.size.height} * after.height / before.height);
@@ -156,6 +160,7 @@ void Tracker::update(const Evidence& evidence, std::span<const Group> groups, in
   }
   lookForTracks(evidence, stepNs);
   findBlobs(evidence);
+  placeByPortraits(evidence, stepNs);
   giveBlobs(evidence);
   giveGroups(evidence, groups);
   countCells(evidence);
@@ -165,7 +170,10 @@ void Tracker::update(const Evidence& evidence, std::span<const Group> groups, in
   meet();
   for (size_t i = 0; i < tracks_.size(); ++i) correct(i, stepNs);
   rejoin(evidence);
-  for (size_t i = 0; i < sightings_.size(); ++i) learnSize(i, stepNs, evidence);
+  for (size_t i = 0; i < sightings_.size(); ++i) {
+    learnSize(i, stepNs, evidence);
+    learnPortrait(i, evidence);
+  }
   learnScale(evidence);
   joinDoubles(evidence, stepNs);
   judgeIdentities();
@@ -179,7 +187,7 @@ void Tracker::lookForTracks(const Evidence& e, int64_t stepNs) {
   taskTrack_.clear();
   std::vector<size_t>& order = taskTrack_;
   for (size_t i = 0; i < tracks_.size(); ++i)
-    if (tracks_[i].state != ObjectState::Lost) order.push_back(i);
+    if (tracks_[i].state != ObjectState::Lost || isFaithful(tracks_[i])) order.push_back(i);
   const auto tierOf = [&](const Track& t) {
     return t.unseenNs > 0 ? 2 : t.isConfirmed && isSizeKnown(t) ? 0 : 1;
   };
@@ -260,7 +268,8 @@ void Tracker::sight() {
     // People's strides, of which a uniform scene is full, are no reason to distrust a box.
     s.isCutOff = isSole && !scale_.isUniform() && track.sizeSamples >= kTrustedSamples &&
                  isCutAtOneEnd(track, s.box, isRigid(track));
-    s.isWhole = !s.box.isEmpty() && isUsual && !s.isCutOff && 5 * s.othersCells < s.boxCells;
+    s.isWhole = (!s.isMatched || (isSole && 16 * s.share >= 15u * track.portrait.usual)) &&
+                !s.box.isEmpty() && isUsual && !s.isCutOff && 5 * s.othersCells < s.boxCells;
   }
 }
 
@@ -319,6 +328,7 @@ Place Tracker::placeOf(size_t index) {
   Track& track = tracks_[index];
   const Sighting& s = sightings_[index];
   if (s.isWhole) return placeOfWhole(track, s);
+  if (s.isMatched) return {s.matched.x, s.matched.y};
   if (!s.box.isEmpty() && s.isSole && !hidesAnother(track))
     return placeOfPart(track, s.box, frame_);
   const FitTask& task = tasks_[static_cast<size_t>(s.task)];
@@ -346,18 +356,26 @@ void Tracker::correct(size_t index, int64_t stepNs) {
   Track& track = tracks_[index];
   const Sighting& s = sightings_[index];
   const bool wasSeen = track.unseenNs == 0;
-  track.isSeen = s.task >= 0 && s.cells > 0 && supportOf(track, s) >= (wasSeen ? 77u : 128u);
+  track.isSeen =
+      s.isMatched || (s.task >= 0 && s.cells > 0 && supportOf(track, s) >= (wasSeen ? 77u : 128u));
   track.isWhole = track.isSeen && s.isWhole;
-  if (!track.isSeen) return miss(track, stepNs);
+  if (!track.isSeen) {
+    if (s.isBehind) {
+      track.x = s.matched.x;
+      track.foot = s.matched.y;
+    }
+    return miss(track, stepNs);
+  }
   const Place place = placeOf(index);
-  const Gains gains = gainsOf(track, s);
   const int64_t sinceUs = std::max<int64_t>((track.unseenNs + stepNs) / 1000, 1000);
   const int64_t offX = place.x - track.x, offFoot = place.foot - track.foot;
+  const Gains gains =
+      gainsOf(track, s, isFaithful(track), std::max(std::abs(offX), std::abs(offFoot)));
   track.x = toInt(track.x + offX * gains.position / 16);
   track.foot = toInt(track.foot + offFoot * gains.position / 16);
   track.speedX = toInt(track.speedX + offX * gains.speed * kSecondUs / 16 / sinceUs);
   track.speedY = toInt(track.speedY + offFoot * gains.speed * kSecondUs / 16 / sinceUs);
-  if (s.isWhole) {
+  if (s.isWhole || 4 * s.share >= 256) {
     const int32_t share = static_cast<int32_t>(std::clamp(track.centreSamples, 1u, kSteadySamples));
     track.steadyX += (track.speedX - track.steadyX) / share;
     track.steadyY += (track.speedY - track.steadyY) / share;

@@ -16,6 +16,7 @@
 #include "core/evidence.hpp"
 #include "core/objects.hpp"
 #include "core/pieces.hpp"
+#include "core/portrait.hpp"
 #include "core/scene_scale.hpp"
 
 #include <cstdint>
@@ -33,6 +34,7 @@ struct Track {
   Extent size;
   Look look;
   Look recent;  ///< Since it came out of a blob of several, while it is in doubt.
+  Portrait portrait;
   Colour colour;
   std::vector<uint64_t> parents;
   int64_t unseenNs = 0;  ///< Since it was last seen.
@@ -54,12 +56,15 @@ struct Track {
   bool isSeen = false;                  ///< In this frame.
   uint64_t company = 0;                 ///< Smallest id of those that it shares a blob with.
   uint64_t nextCompany = 0;
-  int64_t companyNs = 0;  ///< Since nextCompany holds.
-  int64_t apartNs = 0;    ///< For how long it was seen in a blob of its own.
-  int64_t usualNs = 0;    ///< For how long it was seen whole.
-  int64_t otherNs = 0;    ///< Since its own blob is of another size than it should be.
-  int64_t partedNs = 0;   ///< Since it consists of several blobs.
-  int64_t doubleNs = 0;   ///< Since it looks like a part of another track.
+  int64_t companyNs = 0;           ///< Since nextCompany holds.
+  int64_t apartNs = 0;             ///< For how long it was seen in a blob of its own.
+  int64_t usualNs = 0;             ///< For how long it was seen whole.
+  int64_t otherNs = 0;             ///< Since its own blob is of another size than it should be.
+  int64_t partedNs = 0;            ///< Since it consists of several blobs.
+  int64_t doubleNs = 0;            ///< Since it looks like a part of another track.
+  int32_t partOffset = INT32_MIN;  ///< Between the middles of its blob and of another part above or
+                                   ///< below, when they were first seen, in half pixels.
+  bool isBehind = false;           ///< When it was last seen, other things were about to cover it.
   bool isOver = false;
   bool hasMoved = false;
   bool isFromBorder = false;  ///< First seen where things come into the picture, or moving.
@@ -84,10 +89,14 @@ struct Sighting {
   bool isCutOff = false;       ///< `box` lacks an end of what is expected there.
   bool isSole = false;         ///< Nobody else is in its blob.
   bool isWhole = false;        ///< `box` shows all of it.
+  bool isMatched = false;      ///< Its portrait was found.
+  bool isBehind = false;       ///< It was not, but others stand before where it is.
+  uint32_t share = 0;          ///< Of the portrait that was found, in 1/256.
   Box box;                     ///< Pixels, around the groups that it owns.
   uint64_t areaPx = 0;         ///< Of those groups.
   int64_t sumX = 0, sumY = 0;  ///< Of the places of their pixels, in 1/256 px.
   LookCounts look;
+  Point matched;  ///< Middle of the lower edge of the portrait, or where it is hidden, in 1/16 px.
 };
 
 /// Middle of a box's lower edge, in 1/16 px.
@@ -98,6 +107,13 @@ struct Place {
 /// Where a track is of which `part` is seen, in pixels: as near to its expected place as the part's
 /// edges inside the frame allow.
 [[nodiscard]] Place placeOfPart(const Track& track, const Box& part, Size frame);
+
+/// A track that is looked for by its portrait.
+struct PortraitTask {
+  size_t track = 0, fit = 0;  ///< Indices.
+  PortraitMatch match;
+  Point corner;  ///< Where it was found, in pixels.
+};
 
 /// Foreground that no track explains and that is large enough to be something.
 struct Newcomer {
@@ -167,7 +183,16 @@ class Tracker {
   void lookForTracks(const Evidence& evidence, int64_t stepNs);
   void giveGroups(const Evidence& evidence, std::span<const Group> groups);
   void findBlobs(const Evidence& evidence);
+  void findOwnBlobs(const Evidence& evidence);
+  [[nodiscard]] bool isClear(size_t index, const Evidence& evidence) const;
+  void listPortraits(const Evidence& evidence);
+  void placeByPortraits(const Evidence& evidence, int64_t stepNs);
+  [[nodiscard]] PortraitMatch findTrack(const PortraitScene& scene, size_t index, int64_t stepNs);
+  void hide(const PortraitScene& scene, size_t index, int64_t stepNs);
+  void giveMatch(const PortraitScene& scene, PortraitTask& task, int64_t stepNs);
+  void learnPortrait(size_t index, const Evidence& evidence);
   void giveBlobs(const Evidence& evidence);
+  void partTracks(const Evidence& evidence);
   void limitTracks(const Evidence& evidence);
   void reclaimExpected(const Evidence& evidence);
   void spreadOwners(const Evidence& evidence);
@@ -175,6 +200,7 @@ class Tracker {
   void dropStrangers(const Evidence& evidence);
   void sight();
   [[nodiscard]] bool isSizeKnown(const Track& track) const;
+  [[nodiscard]] static bool isFaithful(const Track& track);
   [[nodiscard]] bool isRigid(const Track& track) const;
   void findNewcomers(const Evidence& evidence, const TrackerParams& params);
   void describeNewcomers(const Evidence& evidence);
@@ -203,6 +229,7 @@ class Tracker {
   void fitSizeToScene(Track& track) const;
   void learnScale(const Evidence& evidence);
   [[nodiscard]] bool outgrows(const Track& track, const Box& box) const;
+  [[nodiscard]] static bool movesOtherwise(const Track& a, const Track& b);
   [[nodiscard]] bool areOneBody(const Evidence& evidence, size_t a, size_t b) const;
   void joinDoubles(const Evidence& evidence, int64_t stepNs);
   void findCompany(int64_t stepNs);
@@ -241,6 +268,10 @@ class Tracker {
   std::vector<Box> limits_;          ///< Of each track, cells: beyond, nothing is part of it.
   std::vector<uint16_t> soleTrack_;  ///< Of each blob (from 1): 1 + the only track in it, or 0.
   std::vector<int> trackOfNewcomer_;
+  std::vector<PortraitTask> portraitTasks_;
+  std::vector<uint8_t> taken_;  ///< Of each cell.
+  std::vector<uint8_t> isSearched_;
+  PortraitScratch portraitScratch_;
   std::vector<Encounter> encounters_;  ///< Sorted by ids.
   std::vector<uint32_t> touching_;
   std::vector<uint16_t> trackIndex_;

@@ -26,10 +26,15 @@ bool standBeside(const Box& mine, const Box& other) {
 
 }  // namespace
 
-/// Connected parts of all the foreground, and for each track the one that it has most cells in.
+/// Connected parts of all the foreground.
 void Tracker::findBlobs(const Evidence& e) {
   findPieces(e, {}, blobScratch_, blobs_);
   if (!scale_.isUniform()) cutPieces(e, blobScratch_, blobs_);
+  findOwnBlobs(e);
+}
+
+/// For each track the blob that it has most cells in.
+void Tracker::findOwnBlobs(const Evidence& e) {
   blobOf_.assign(tracks_.size(), 0);
   soleTrack_.assign(blobs_.size() + 1, 0);
   blobCells_.assign(blobs_.size() + 1, 0);
@@ -81,9 +86,45 @@ void Tracker::giveBlobs(const Evidence& e) {
     const Track& track = tracks_[owner - 1u];
     if (!isSizeKnown(track) || track.partedNs > kPartedNs) owner_[cell] = 0;
   });
+  partTracks(e);
   limitTracks(e);
   reclaimExpected(e);
   spreadOwners(e);
+}
+
+/// Two things above each other were taken for one when they came in: once one has moved against the
+/// other by half a width, it is given up. Parts of a body don't do that.
+void Tracker::partTracks(const Evidence& e) {
+  findMajorities(tracks_.size(), majorities_, [&](auto&& count) {
+    e.forForeground([&](size_t cell, int, int) {
+      const uint16_t owner = owner_[cell];
+      const uint32_t blob = blobScratch_.label[cell];
+      if (owner != 0 && blob != 0 && blobOf_[owner - 1u] != blob) count(owner - 1u, blob, 1u);
+    });
+  });
+  const Box inside = inflate(boundsOf(e.grid), -1);
+  const auto isInside = [&](const Box& box) { return intersect(box, inside) == box; };
+  for (size_t t = 0; t < tracks_.size(); ++t) {
+    Track& track = tracks_[t];
+    const Majority& other = majorities_[t];
+    const bool isPair = blobOf_[t] != 0 && soleTrack_[blobOf_[t]] == t + 1 &&
+                        2 * other.votes > other.total && !sightings_[t].isMatched;
+    if (!isPair) track.partOffset = INT32_MIN;
+    if (!isPair) continue;
+    const Piece &main = blobs_[blobOf_[t] - 1], &part = blobs_[other.value - 1];
+    const int least = std::min(main.box.width, part.box.width);
+    if (!isInside(main.box) || !isInside(part.box) || 4 * part.cells < main.cells) continue;
+    const int way = 2 * part.box.x + part.box.width - 2 * main.box.x - main.box.width;
+    const int offset = (part.box.y < main.box.y ? way : -way) * e.stepPx;
+    if (track.partOffset == INT32_MIN) track.partOffset = offset;
+    if (std::abs(offset - track.partOffset) <= least * e.stepPx) continue;
+    e.forForeground([&](size_t cell, int, int) {
+      if (owner_[cell] == t + 1 && blobScratch_.label[cell] == other.value) owner_[cell] = 0;
+    });
+    track.sizeSamples = 0;
+    track.portrait.frames = 0;
+    track.partOffset = INT32_MIN;
+  }
 }
 
 /// A track of known size ends a little way beyond its box.

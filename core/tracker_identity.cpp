@@ -21,6 +21,7 @@ constexpr size_t kMaxEncounters = 512;
 void exchangeIdentities(Track& a, Track& b) {
   std::swap(a.id, b.id);
   std::swap(a.look, b.look);
+  std::swap(a.portrait, b.portrait);
   std::swap(a.colour, b.colour);
   std::swap(a.parents, b.parents);
   std::swap(a.ageNs, b.ageNs);
@@ -38,7 +39,8 @@ void Tracker::dropStrangers(const Evidence& e) {
     Sighting& s = sightings_[i];
     const Track& track = tracks_[i];
     const bool isAlone = blobOf_[i] != 0 && soleTrack_[blobOf_[i]] == i + 1;
-    if (!isAlone || track.look.frames < kKnownLook || s.cells < kLeastCells) continue;
+    if (!isAlone || s.isMatched || track.look.frames < kKnownLook || s.cells < kLeastCells)
+      continue;
     Look now;
     learn(now, s.look);
     if (100 * similarity(track.look, now) >= kStranger * kFullMatch) continue;

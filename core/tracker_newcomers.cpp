@@ -60,7 +60,8 @@ void Tracker::findNewcomers(const Evidence& e, const TrackerParams& params) {
     piece.group = pieces_[i].group;
     int host = -1;
     for (size_t n = 0; n < newcomers_.size() && host < 0; ++n)
-      if (belongTogether(newcomers_[n].box, piece.box, scale_) &&
+      if ((scale_.isUniform() || 2 * piece.cells <= newcomers_[n].cells) &&
+          belongTogether(newcomers_[n].box, piece.box, scale_) &&
           !areApart(e, newcomers_[n].group, piece.group))
         host = static_cast<int>(n);
     if (host < 0) {
@@ -231,6 +232,9 @@ int64_t Tracker::rejoinCost(const Track& track, const Newcomer& newcomer) const 
   const int64_t gate = std::max<int64_t>(
       1, track.size.height / 2 + track.size.height * (track.unseenNs / 1'000'000) * 3 / 2000);
   if (far > gate) return kForbidden;
+  // Parts of what has a portrait were found by that, or don't tell where it is.
+  if (isFaithful(track) && 5 * int64_t{newcomer.box.width} * kUnit < 4 * track.size.width)
+    return kForbidden;
   if (newcomer.isPart && isPartOf(newcomer, track)) return 1000 * int64_t{far} / gate;
   const int64_t height = int64_t{newcomer.box.height} * kUnit;
   if (!newcomer.isAtBorder && (2 * height < track.size.height || height > 2 * track.size.height))

@@ -10,6 +10,7 @@ namespace {
 
 constexpr int kUnit = kPositionUnit;
 constexpr uint32_t kConfirmHits = 3;
+constexpr uint32_t kSteadySamples = 12;
 constexpr int64_t kFlickerNs = 250'000'000;    // A new track that is unseen for longer was nothing.
 constexpr int64_t kDoubleNs = 500'000'000;     // One body for so long, two tracks are one.
 constexpr int64_t kOtherSizeNs = 500'000'000;  // Of another size for so long, it has changed.
@@ -33,14 +34,19 @@ void Tracker::learnSize(size_t index, int64_t stepNs, const Evidence& e) {
   if (track.isSeen && s.isSole) track.apartNs += stepNs;
   if (track.isSeen) track.seenNs += stepNs;
   track.partedNs = s.isParted ? track.partedNs + stepNs : 0;
-  const bool isWrong = track.isSeen && s.isSole && !s.isWhole && !scale_.isUniform();
+  const Box frame = boundsOf(e.frame);
+  const bool isCut = s.box.x <= frame.x || s.box.y <= frame.y || s.box.right() >= frame.right() ||
+                     s.box.bottom() >= frame.bottom();
+  // What is hidden in part is smaller, not larger.
+  const Extent& size = track.size;
+  const bool isLarger = 8 * s.box.width * kUnit > 9 * size.width + 16 * kUnit ||
+                        8 * s.box.height * kUnit > 9 * size.height + 16 * kUnit;
+  const bool isWrong = track.isSeen && s.isSole && !s.isWhole && !scale_.isUniform() &&
+                       (isLarger || !(s.isMatched || isCut));
   track.otherNs = isWrong ? track.otherNs + stepNs : 0;
   if (s.isWhole && track.isSeen) track.usualNs += stepNs;
   if (track.otherNs > std::max(kOtherSizeNs, track.usualNs)) track.sizeSamples = 0;
   if (!s.isWhole || !track.isSeen) return;
-  const Box frame = boundsOf(e.frame);
-  const bool isCut = s.box.x <= frame.x || s.box.y <= frame.y || s.box.right() >= frame.right() ||
-                     s.box.bottom() >= frame.bottom();
   const bool isOther = 5 * s.box.width * kUnit < 4 * track.size.width ||
                        4 * s.box.width * kUnit > 5 * track.size.width ||
                        5 * s.box.height * kUnit < 4 * track.size.height ||
@@ -106,6 +112,13 @@ bool Tracker::outgrows(const Track& track, const Box& box) const {
          4 * int64_t{box.height} * kUnit > 5 * int64_t{track.size.height};
 }
 
+/// Whether two tracks keep moving at other speeds: a third of a width per second.
+bool Tracker::movesOtherwise(const Track& a, const Track& b) {
+  if (std::min(a.centreSamples, b.centreSamples) < kSteadySamples) return false;
+  const int64_t dx = a.steadyX - b.steadyX, dy = a.steadyY - b.steadyY;
+  return 3 * (std::abs(dx) + std::abs(dy)) > std::min(a.size.width, b.size.width);
+}
+
 /// Whether two tracks seem to be one body: they lie above each other as its halves do, or together
 /// show no more than one of them should.
 bool Tracker::areOneBody(const Evidence& e, size_t a, size_t b) const {
@@ -115,6 +128,7 @@ bool Tracker::areOneBody(const Evidence& e, size_t a, size_t b) const {
   if (blobOf_[a] != 0 && blobOf_[b] != 0 &&
       areApart(e, blobs_[blobOf_[a] - 1].group, blobs_[blobOf_[b] - 1].group))
     return false;
+  if (!scale_.isUniform() && movesOtherwise(p, q)) return false;
   if (outgrows(p, both) || outgrows(q, both)) return false;
   if (!scale_.isUniform() && blobOf_[a] != 0 && blobOf_[a] == blobOf_[b] &&
       std::min(p.apartNs, q.apartNs) < kDoubleNs)
@@ -166,7 +180,7 @@ void Tracker::joinDoubles(const Evidence& e, int64_t stepNs) {
 /// Where all things are of one size, a track that isn't was a part of one, or several at once: its
 /// box becomes a usual one, and what that leaves over becomes a newcomer.
 void Tracker::fitSizeToScene(Track& track) const {
-  if (!scale_.isUniform()) return;
+  if (!scale_.isUniform() || isFaithful(track)) return;
   const Extent usual = scale_.at(track.foot / kUnit);
   const auto limit = [](int32_t& value, int64_t expected, int64_t least, int64_t most) {
     value = static_cast<int32_t>(
@@ -232,10 +246,12 @@ void Tracker::tellNew(const Track& track) {
 }
 
 /// Whether the last bit of a track is about to leave the picture: what is seen there next may be
-/// somebody who comes in.
+/// somebody who comes in. A portrait tells them apart.
 bool Tracker::isLeaving(const Track& track) const {
   const Box box = track.box();
-  if (!track.isConfirmed || 8 * intersect(box, boundsOf(frame_)).area() >= box.area()) return false;
+  if (!track.isConfirmed || isFaithful(track) ||
+      8 * intersect(box, boundsOf(frame_)).area() >= box.area())
+    return false;
   return (box.x < 0 && track.speedX < 0) || (box.right() > frame_.width && track.speedX > 0) ||
          (box.y < 0 && track.speedY < 0) || (box.bottom() > frame_.height && track.speedY > 0);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/objects.hpp"
+#include "tests/core/body_scene.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,91 +13,6 @@ namespace rg {
 namespace {
 
 using testing::IsEmpty;
-
-constexpr int64_t kStepNs = 40'000'000;
-
-struct Body {
-  Box box;
-  Colour colour;
-};
-
-/// Frames of rectangles on an empty background, as the stages before hand them on: each colour that
-/// is seen is a region, later bodies cover earlier ones.
-class Scene {
- public:
-  explicit Scene(Size size = {320, 240}, Scope scope = Scope::Foreground)
-      : size_(size), scope_(scope) {}
-
-  std::shared_ptr<const Objects> show(const std::vector<Body>& bodies,
-                                      const std::vector<RegionMotion>& motions = {}) {
-    auto picture = std::make_shared<Picture>();
-    auto labels = std::make_shared<Labels>();
-    labels->size = size_;
-    labels->status = Status::Ok;
-    labels->scope = scope_;
-    labels->ids.resize(size_);
-    labels->ids.fill(0);
-    std::vector<uint8_t> pixels(static_cast<size_t>(size_.area()) * 3, 90);
-    for (size_t i = 0; i < bodies.size(); ++i)
-      paint(bodies[i], static_cast<uint16_t>(i + 1), labels->ids, pixels);
-    const PlaneMemory plane{pixels.data(), pixels.size(), size_.width * 3};
-    picture->load(*Frame::make({PixelFormat::Rgb, size_}, std::span(&plane, 1)), Executor(1));
-    labels->picture = picture;
-    // Labels count without gaps: a body that can't be seen has none.
-    std::vector<uint16_t> labelOf(bodies.size() + 1, 0);
-    for (int y = 0; y < size_.height; ++y)
-      for (int x = 0; x < size_.width; ++x) labelOf[labels->ids.at(x, y)] = 1;
-    labelOf[0] = 0;
-    std::vector<RegionMotion> seen;
-    for (size_t i = 1; i < labelOf.size(); ++i) {
-      if (labelOf[i] == 0) continue;
-      labelOf[i] = static_cast<uint16_t>(++labels->count);
-      seen.push_back(i <= motions.size() ? motions[i - 1] : RegionMotion{});
-    }
-    for (int y = 0; y < size_.height; ++y)
-      for (int x = 0; x < size_.width; ++x) labels->ids.at(x, y) = labelOf[labels->ids.at(x, y)];
-    const Context context{std::make_shared<const Executor>(1), nullptr};
-    auto motion = std::make_shared<Motion>();
-    motion->size = size_;
-    motion->status = Status::Ok;
-    motion->graph = *makeGraphStage(context)->process(labels, {});
-    motion->regions = seen;
-    return process(motion);
-  }
-  std::shared_ptr<const Objects> skip() {
-    auto motion = std::make_shared<Motion>();
-    motion->size = size_;
-    return process(motion);
-  }
-  ObjectStage& stage() { return *stage_; }
-  void wait(int64_t ns) { time_.ns += ns; }
-  void forgetTime() { time_.isKnown = false; }
-
- private:
-  static void paint(const Body& body, uint16_t label, Image<uint16_t>& ids,
-                    std::vector<uint8_t>& pixels) {
-    const Box box = intersect(body.box, boundsOf(ids.size()));
-    for (int y = box.y; y < box.bottom(); ++y)
-      for (int x = box.x; x < box.right(); ++x) {
-        ids.at(x, y) = label;
-        uint8_t* pixel = pixels.data() + 3 * (y * ids.width() + x);
-        pixel[0] = body.colour.red;
-        pixel[1] = body.colour.green;
-        pixel[2] = body.colour.blue;
-      }
-  }
-  std::shared_ptr<const Objects> process(std::shared_ptr<const Motion> motion) {
-    auto result = stage_->process(std::move(motion), {}, time_);
-    EXPECT_TRUE(result);
-    time_.ns += kStepNs;
-    return *result;
-  }
-  Size size_;
-  Scope scope_;
-  FrameTime time_{0, true};
-  std::unique_ptr<ObjectStage> stage_ =
-      makeObjectStage({std::make_shared<const Executor>(1), nullptr});
-};
 
 constexpr Colour kRed{200, 30, 30}, kBlue{30, 40, 200}, kGreen{30, 180, 40};
 
@@ -122,7 +38,7 @@ double overlap(const Box& a, const Box& b) {
 }
 
 TEST(Objects, AMovingBodyIsOneObjectWithItsBoxAndSpeed) {
-  Scene scene;
+  BodyScene scene;
   std::shared_ptr<const Objects> objects;
   int begun = 0;
   for (int i = 0; i < 40; ++i) {
@@ -147,7 +63,7 @@ TEST(Objects, AMovingBodyIsOneObjectWithItsBoxAndSpeed) {
 }
 
 TEST(Objects, RegionsAreExpectedToBeTheObjectThatMovesThere) {
-  Scene scene;
+  BodyScene scene;
   std::shared_ptr<const Objects> objects;
   for (int i = 0; i < 20; ++i)
     objects = scene.show({{{20 + 12 * i, 80, 12, 30}, kRed}, {{20 + 12 * i, 110, 12, 30}, kBlue}});
@@ -161,7 +77,7 @@ TEST(Objects, RegionsAreExpectedToBeTheObjectThatMovesThere) {
 }
 
 TEST(Objects, SlowEntryFromTheBorderMakesOneObject) {
-  Scene scene;
+  BodyScene scene;
   std::set<uint64_t> ids;
   std::shared_ptr<const Objects> objects;
   for (int i = 0; i < 60; ++i) {
@@ -174,7 +90,7 @@ TEST(Objects, SlowEntryFromTheBorderMakesOneObject) {
 }
 
 TEST(Objects, WhatComesInIsToldAsSoonAsAllOfItIsSeen) {
-  Scene scene;
+  BodyScene scene;
   std::shared_ptr<const Objects> objects;
   for (int x = -60; x <= 0; x += 4) objects = scene.show({{{x, 100, 60, 90}, kRed}});
   const auto told = toldOf(*objects);
@@ -183,7 +99,7 @@ TEST(Objects, WhatComesInIsToldAsSoonAsAllOfItIsSeen) {
 }
 
 TEST(Objects, WhatComesInBesideAKnownObjectIsAnObjectOfItsOwn) {
-  Scene scene;
+  BodyScene scene;
   std::shared_ptr<const Objects> objects;
   for (int i = 0; i < 65; ++i) {
     const Box old{10 + 2 * i, 120, 60, 40}, fresh{20 + 2 * i, 280 - 2 * i, 60, 50};
@@ -196,7 +112,7 @@ TEST(Objects, WhatComesInBesideAKnownObjectIsAnObjectOfItsOwn) {
 }
 
 TEST(Objects, WhoComesInWhereAnotherLeavesIsSomebodyElse) {
-  Scene scene;
+  BodyScene scene;
   std::shared_ptr<const Objects> objects;
   for (int i = 0; i < 90; ++i)
     objects = scene.show(
@@ -208,7 +124,7 @@ TEST(Objects, WhoComesInWhereAnotherLeavesIsSomebodyElse) {
 }
 
 TEST(Objects, AKnownObjectKeepsItsSizeInCompany) {
-  Scene scene;
+  BodyScene scene;
   for (int i = 0; i < 60; ++i) {
     const Box first{10 + 2 * i, 100, 40, 60}, second{250 - 2 * i, 110, 60, 40};
     const auto objects = scene.show({{first, kRed}, {second, kBlue}});
@@ -220,7 +136,7 @@ TEST(Objects, AKnownObjectKeepsItsSizeInCompany) {
 }
 
 TEST(Objects, TheFirstPartThatComesOutFromBehindAPillarIsEnough) {
-  Scene scene;
+  BodyScene scene;
   uint64_t id = 0;
   for (int i = 0; i < 60; ++i) {
     const Box box{4 * i, 100, 40, 60};
@@ -239,7 +155,7 @@ TEST(Objects, TheFirstPartThatComesOutFromBehindAPillarIsEnough) {
 }
 
 TEST(Objects, ABodyOfSeveralColoursIsOneObject) {
-  Scene scene;
+  BodyScene scene;
   std::shared_ptr<const Objects> objects;
   for (int i = 0; i < 30; ++i)
     objects = scene.show({{{40 + 3 * i, 80, 24, 30}, kRed}, {{40 + 3 * i, 110, 24, 30}, kBlue}});
@@ -249,7 +165,7 @@ TEST(Objects, ABodyOfSeveralColoursIsOneObject) {
 }
 
 TEST(Objects, AFootApartFromItsBodyIsAPartOfIt) {
-  Scene scene;
+  BodyScene scene;
   for (int i = 0; i < 20; ++i) {
     const auto objects =
         scene.show({{{40 + 4 * i, 60, 24, 60}, kRed}, {{50 + 4 * i, 124, 14, 8}, kBlue}});
@@ -261,7 +177,7 @@ TEST(Objects, AFootApartFromItsBodyIsAPartOfIt) {
 }
 
 TEST(Objects, PartsThatWereApartForAMomentBecomeOneObject) {
-  Scene scene;
+  BodyScene scene;
   std::shared_ptr<const Objects> objects;
   for (int i = 0; i < 30; ++i) {
     std::vector<Body> bodies = {{{40 + 4 * i, 60, 20, 30}, kRed},
@@ -274,7 +190,7 @@ TEST(Objects, PartsThatWereApartForAMomentBecomeOneObject) {
 }
 
 TEST(Objects, WhatIsHiddenSoonAfterItWasFoundIsNotGuessedAt) {
-  Scene scene;
+  BodyScene scene;
   for (int i = 0; i < 6; ++i) scene.show({{{40 + 8 * i, 60, 24, 60}, kRed}});
   for (int i = 0; i < 5; ++i) scene.show({});
   const auto objects = scene.show({});
@@ -282,13 +198,13 @@ TEST(Objects, WhatIsHiddenSoonAfterItWasFoundIsNotGuessedAt) {
 }
 
 TEST(Objects, WhatNeverMovesIsNotTold) {
-  Scene scene;
+  BodyScene scene;
   for (int i = 0; i < 100; ++i)
     EXPECT_THAT(toldOf(*scene.show({{{100, 80, 24, 60}, kRed}})), IsEmpty());
 }
 
 TEST(Objects, AFlickerIsNotTold) {
-  Scene scene;
+  BodyScene scene;
   for (int i = 0; i < 60; ++i) {
     const auto objects =
         i % 20 == 3 ? scene.show({{{40 + 3 * i, 80, 24, 60}, kRed}}) : scene.show({});
@@ -298,7 +214,7 @@ TEST(Objects, AFlickerIsNotTold) {
 }
 
 TEST(Objects, AStoppedObjectKeepsItsNumber) {
-  Scene scene;
+  BodyScene scene;
   std::shared_ptr<const Objects> objects;
   for (int i = 0; i < 30; ++i) objects = scene.show({{{40 + 3 * i, 80, 24, 60}, kRed}});
   for (int i = 0; i < 250; ++i) objects = scene.show({{{127, 80, 24, 60}, kRed}});
@@ -311,7 +227,7 @@ TEST(Objects, AStoppedObjectKeepsItsNumber) {
 }
 
 /// Shows bodies that cross; tells the ids by which each is seen at the start and at the end.
-std::map<int, std::set<uint64_t>> cross(Scene& scene, int frames, int gapFrom, int gapTo) {
+std::map<int, std::set<uint64_t>> cross(BodyScene& scene, int frames, int gapFrom, int gapTo) {
   std::map<int, std::set<uint64_t>> ids;
   for (int i = 0; i < frames; ++i) {
     const std::vector<Body> bodies{{{30 + 3 * i, 80, 24, 60}, kRed},
@@ -327,7 +243,7 @@ std::map<int, std::set<uint64_t>> cross(Scene& scene, int frames, int gapFrom, i
 }
 
 TEST(Objects, CrossingBodiesKeepTheirNumbers) {
-  Scene scene;
+  BodyScene scene;
   auto ids = cross(scene, 75, 28, 52);
   EXPECT_EQ(ids[0].size(), 1u);
   EXPECT_EQ(ids[1].size(), 1u);
@@ -337,7 +253,7 @@ TEST(Objects, CrossingBodiesKeepTheirNumbers) {
 /// Two that hold as much red as blue, but not in the same places, stand behind each other for a
 /// while. Then they go on, or back where they came from.
 std::map<int, std::set<uint64_t>> meet(bool isTurning) {
-  Scene scene;
+  BodyScene scene;
   std::map<int, std::set<uint64_t>> ids;
   for (int i = 0; i < 90; ++i) {
     const int way = i < 36 ? 3 * i : i < 46 ? 108 : 108 + (isTurning ? -3 : 3) * (i - 45);
@@ -365,7 +281,7 @@ TEST(Objects, WhoMetIsKnownByTheLooksOfItsParts) {
 }
 
 TEST(Objects, MeetingAndPartingAreToldOnce) {
-  Scene scene;
+  BodyScene scene;
   std::vector<Event> merges, splits;
   for (int i = 0; i < 75; ++i) {
     const auto objects =
@@ -382,7 +298,7 @@ TEST(Objects, MeetingAndPartingAreToldOnce) {
 }
 
 TEST(Objects, WhatComesOutOfAnObjectNamesItsParent) {
-  Scene scene;
+  BodyScene scene;
   std::shared_ptr<const Objects> objects;
   for (int i = 0; i < 40; ++i) objects = scene.show({{{30 + 2 * i, 80, 24, 60}, kRed}});
   for (int i = 0; i < 40; ++i)
@@ -395,7 +311,7 @@ TEST(Objects, WhatComesOutOfAnObjectNamesItsParent) {
 }
 
 TEST(Objects, AHiddenObjectComesBackWithItsNumber) {
-  Scene scene;
+  BodyScene scene;
   std::shared_ptr<const Objects> objects;
   for (int i = 0; i < 60; ++i) {
     const bool isHidden = i >= 25 && i < 45;
@@ -411,7 +327,7 @@ TEST(Objects, AHiddenObjectComesBackWithItsNumber) {
 }
 
 TEST(Objects, WhatIsGoneForLongEndsAndItsNumberIsNotUsedAgain) {
-  Scene scene;
+  BodyScene scene;
   for (int i = 0; i < 30; ++i) (void)scene.show({{{40 + 3 * i, 80, 24, 60}, kGreen}});
   int ended = 0;
   for (int i = 0; i < 60; ++i) ended += countEvents(*scene.show({}), EventKind::ObjectEnd);
@@ -423,7 +339,7 @@ TEST(Objects, WhatIsGoneForLongEndsAndItsNumberIsNotUsedAgain) {
 }
 
 TEST(Objects, ASkippedFramePredictsAndTellsNothing) {
-  Scene scene;
+  BodyScene scene;
   for (int i = 0; i < 30; ++i) (void)scene.show({{{40 + 3 * i, 80, 24, 60}, kRed}});
   const auto skipped = scene.skip();
   EXPECT_EQ(skipped->status, Status::Skipped);
@@ -435,7 +351,7 @@ TEST(Objects, ASkippedFramePredictsAndTellsNothing) {
 }
 
 TEST(Objects, AFlushEndsTracksAndTheNextFrameTells) {
-  Scene scene;
+  BodyScene scene;
   for (int i = 0; i < 30; ++i) (void)scene.show({{{40 + 3 * i, 80, 24, 60}, kRed}});
   scene.stage().reset(Reset::Flush);
   const auto objects = scene.show({});
@@ -444,7 +360,7 @@ TEST(Objects, AFlushEndsTracksAndTheNextFrameTells) {
 }
 
 TEST(Objects, AGapIsBridgedByPrediction) {
-  Scene scene;
+  BodyScene scene;
   for (int i = 0; i < 30; ++i) (void)scene.show({{{40 + 3 * i, 80, 24, 60}, kRed}});
   scene.stage().reset(Reset::Gap);
   scene.wait(9 * kStepNs);
@@ -454,7 +370,7 @@ TEST(Objects, AGapIsBridgedByPrediction) {
 }
 
 TEST(Objects, WhatPassesBehindAPillarGoesOnAsItDid) {
-  Scene scene;
+  BodyScene scene;
   constexpr Box kPillar{140, 0, 100, 240};
   std::shared_ptr<const Objects> objects;
   for (int i = 0; i < 75; ++i) {
@@ -474,7 +390,7 @@ TEST(Objects, WhatPassesBehindAPillarGoesOnAsItDid) {
 }
 
 TEST(Objects, WithoutTimeThereIsNoSpeed) {
-  Scene scene;
+  BodyScene scene;
   scene.forgetTime();
   std::shared_ptr<const Objects> objects;
   for (int i = 0; i < 30; ++i) objects = scene.show({{{40 + 3 * i, 80, 24, 60}, kRed}});
@@ -484,7 +400,7 @@ TEST(Objects, WithoutTimeThereIsNoSpeed) {
 }
 
 TEST(Objects, AMovingCameraIsTheBackgroundsMotion) {
-  Scene scene({320, 240}, Scope::Frame);
+  BodyScene scene({320, 240}, Scope::Frame);
   const RegionMotion pan{-3 * kMotionUnit, kMotionUnit, 0, kFullReliability};
   const RegionMotion walk{4 * kMotionUnit, 0, 0, kFullReliability};
   std::shared_ptr<const Objects> objects;
@@ -499,14 +415,14 @@ TEST(Objects, AMovingCameraIsTheBackgroundsMotion) {
 
 TEST(Objects, TinyFramesAreFine) {
   for (const Size size : {Size{1, 1}, Size{1, 9}, Size{9, 1}}) {
-    Scene scene(size);
+    BodyScene scene(size);
     for (int i = 0; i < 10; ++i) (void)scene.show({{{i % 3, i % 2, 3, 3}, kRed}});
     EXPECT_EQ(scene.show({})->size, size);
   }
 }
 
 TEST(Objects, TwoRunsAgree) {
-  Scene one, two;
+  BodyScene one, two;
   for (int i = 0; i < 75; ++i) {
     const std::vector<Body> bodies{{{30 + 3 * i, 80, 24, 60}, kRed},
                                    {{260 - 3 * i, 84, 24, 60}, kBlue}};

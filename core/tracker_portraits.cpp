@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Where tracks are that share a blob or of which only a part is seen: by their portraits.
+#include "core/pixel.hpp"
+#include "core/tracker.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+namespace rg {
+namespace {
+
+constexpr int kUnit = kPositionUnit;
+constexpr uint32_t kKnownPortrait = 4;   // Frames from which one can be looked for.
+constexpr uint32_t kFaithful = 160;      // Of 256: so much of a thing agrees that keeps its shape.
+constexpr uint32_t kLeastAgreeing = 12;  // Samples.
+constexpr int kFarFrom = 50;             // How little it matters where a hidden thing was expected.
+constexpr int64_t kReachNs = 100'000'000;
+
+Point cornerOf(const Track& track) {
+  const auto px = [](int64_t v) { return static_cast<int>(divideRounded(v, kUnit)); };
+  const Size size = track.portrait.sizePx;
+  return {px(track.x - int64_t{size.width} * kUnit / 2), px(track.foot) - size.height};
+}
+
+/// The cells that a box of pixels touches.
+Box cellsOf(const Box& box, int stepPx) {
+  const auto down = [&](int v) { return v >= 0 ? v / stepPx : -((stepPx - 1 - v) / stepPx); };
+  const int x = down(box.x), y = down(box.y);
+  return {x, y, down(box.right() + stepPx - 1) - x, down(box.bottom() + stepPx - 1) - y};
+}
+
+/// Middle of the lower edge, in 1/16 px.
+Point placeOfMatch(const Track& track, Point corner, const PortraitMatch& match) {
+  const Size size = track.portrait.sizePx;
+  return {corner.x * kUnit + match.shift.x + size.width * kUnit / 2,
+          (corner.y + size.height) * kUnit + match.shift.y};
+}
+
+}  // namespace
+
+/// Whether its portrait tells where it is.
+bool Tracker::isFaithful(const Track& track) {
+  return track.portrait.frames >= kKnownPortrait && track.portrait.usual >= kFaithful;
+}
+
+/// Whether the blob that a track has for itself is as large as it should be.
+bool Tracker::isClear(size_t index, const Evidence& e) const {
+  const uint32_t blob = blobOf_[index];
+  if (blob == 0 || soleTrack_[blob] != index + 1) return false;
+  const Track& track = tracks_[index];
+  if (track.unseenNs > 0) return false;
+  const Box& box = blobs_[blob - 1].box;
+  if (box.x <= 0 || box.y <= 0 || box.right() >= e.grid.width || box.bottom() >= e.grid.height)
+    return false;
+  const auto isNear = [&](int cells, int32_t size) {
+    const int64_t off = std::abs(int64_t{cells} * e.stepPx * kUnit - size);
+    return off <= std::max<int64_t>(2 * e.stepPx * kUnit, size / 8);
+  };
+  return isNear(box.width, track.size.width) && isNear(box.height, track.size.height);
+}
+
+/// The tracks that have a portrait and aren't clear give up their cells; those of clear ones are
+/// taken.
+void Tracker::listPortraits(const Evidence& e) {
+  portraitTasks_.clear();
+  if (!e.picture) return;
+  isSearched_.assign(tracks_.size() + 1, 0);
+  for (size_t t = 0; t < tasks_.size(); ++t) {
+    const size_t i = taskTrack_[t];
+    if (!isFaithful(tracks_[i]) || isClear(i, e)) continue;
+    portraitTasks_.push_back({i, t, {}, {}});
+    isSearched_[i + 1] = 1;
+  }
+  if (portraitTasks_.empty()) return;
+  taken_.assign(e.group.size(), 0);
+  e.forForeground([&](size_t cell, int, int) {
+    const uint16_t owner = owner_[cell];
+    if (owner == 0) return;
+    if (isSearched_[owner] != 0)
+      owner_[cell] = 0;
+    else if (soleTrack_[blobScratch_.label[cell]] == owner)
+      taken_[cell] = 1;
+  });
+}
+
+/// Who is seen best stands in front and takes its place first; the others are looked for in what it
+/// leaves.
+void Tracker::placeByPortraits(const Evidence& e, int64_t stepNs) {
+  listPortraits(e);
+  std::vector<PortraitTask>& tasks = portraitTasks_;
+  if (tasks.empty()) return;
+  const PortraitScene scene{e, *e.picture, taken_};
+  for (PortraitTask& task : tasks) task.match = findTrack(scene, task.track, stepNs);
+  std::sort(tasks.begin(), tasks.end(), [&](const PortraitTask& a, const PortraitTask& b) {
+    return std::tuple(b.match.value(), -tracks_[a.track].foot, a.track) <
+           std::tuple(a.match.value(), -tracks_[b.track].foot, b.track);
+  });
+  for (PortraitTask& task : tasks) {
+    task.match = findTrack(scene, task.track, stepNs);
+    giveMatch(scene, task, stepNs);
+  }
+  for (const PortraitTask& task : tasks) {
+    if (!sightings_[task.track].isMatched) continue;
+    forPortraitCells(tracks_[task.track].portrait, {e, *e.picture, {}}, task.corner,
+                     [&](size_t cell, bool) {
+                       if (owner_[cell] == 0) owner_[cell] = static_cast<uint16_t>(task.track + 1);
+                     });
+  }
+  findOwnBlobs(e);
+}
+
+PortraitMatch Tracker::findTrack(const PortraitScene& scene, size_t index, int64_t stepNs) {
+  const Track& track = tracks_[index];
+  const Size size = track.portrait.sizePx;
+  const int64_t since = std::min<int64_t>(stepNs + track.unseenNs, 10 * kReachNs);
+  // A thing may turn round at once.
+  const Point step = expectedShift(track, {}, stepNs);
+  const auto within = [&](int length, int shift) {
+    return std::max(6, static_cast<int>(length * (kReachNs + since) / (10 * kReachNs))) +
+           std::min(2 * std::abs(shift), length / 3);
+  };
+  const int calm = static_cast<int>(1 + track.unseenNs / kReachNs);
+  return findPortrait(track.portrait, scene, cornerOf(track),
+                      {within(size.width, step.x), within(size.height / 2, step.y)}, calm,
+                      portraitScratch_);
+}
+
+/// Who is hidden by others is where they hide all of it: it may have stopped there.
+void Tracker::hide(const PortraitScene& scene, size_t index, int64_t stepNs) {
+  const Track& track = tracks_[index];
+  const Point corner = cornerOf(track), step = expectedShift(track, {}, stepNs);
+  const Point reach{1 + std::abs(step.x), 1 + std::abs(step.y)};
+  Sighting& s = sightings_[index];
+  s.isBehind = true;
+  s.matched =
+      placeOfMatch(track, corner,
+                   findPortrait(track.portrait, scene, corner, reach, kFarFrom, portraitScratch_));
+}
+
+/// What is found of a track is its own; where too little is, it is hidden.
+void Tracker::giveMatch(const PortraitScene& scene, PortraitTask& task, int64_t stepNs) {
+  Track& track = tracks_[task.track];
+  const PortraitMatch& match = task.match;
+  Sighting& s = sightings_[task.track];
+  if (match.agreeing < kLeastAgreeing || 16 * match.agreeing < match.samples ||
+      2 * match.agreeing < match.seen) {
+    s.task = -1;
+    if (track.unseenNs == 0) track.isBehind = 2 * match.covered >= match.samples;
+    if (track.isBehind && 4 * match.ground >= match.samples) hide(scene, task.track, stepNs);
+    return;
+  }
+  const Point corner = cornerOf(track);
+  const auto px = [](int sixteenths) { return static_cast<int>(divideRounded(sixteenths, 16)); };
+  task.corner = {corner.x + px(match.shift.x), corner.y + px(match.shift.y)};
+  s.isMatched = true;
+  s.share = match.share();
+  s.matched = placeOfMatch(track, corner, match);
+  forPortraitCells(track.portrait, scene, task.corner, [&](size_t cell, bool isAlike) {
+    if (!isAlike || owner_[cell] != 0) return;
+    owner_[cell] = static_cast<uint16_t>(task.track + 1);
+    taken_[cell] = 1;
+  });
+  tasks_[task.fit].fitted = cellsOf(
+      {task.corner.x, task.corner.y, track.portrait.sizePx.width, track.portrait.sizePx.height},
+      scene.evidence.stepPx);
+}
+
+void Tracker::learnPortrait(size_t index, const Evidence& e) {
+  Track& track = tracks_[index];
+  const Sighting& s = sightings_[index];
+  if (!e.picture || !track.isSeen || !s.isWhole || !s.isSole || s.isMatched) return;
+  const Box frame = boundsOf(e.frame);
+  if (s.box.x <= frame.x || s.box.y <= frame.y || s.box.right() >= frame.right() ||
+      s.box.bottom() >= frame.bottom())
+    return;
+  const auto px = [](int32_t v) { return std::max(1, static_cast<int>(divideRounded(v, kUnit))); };
+  const Size size{px(track.size.width), px(track.size.height)};
+  if (track.portrait.frames == 0) track.portrait.sizePx = size;
+  learn(track.portrait, {e, *e.picture, {}}, cornerOf(track), size, owner_,
+        static_cast<uint16_t>(index + 1));
+}
+
+}  // namespace rg

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Frames of rectangles for stage 5.
+#pragma once
+
+#include "core/objects.hpp"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace rg {
+
+constexpr int64_t kStepNs = 40'000'000;
+
+struct Body {
+  Box box;
+  Colour colour;
+};
+
+/// Frames of rectangles on an empty background, as the stages before hand them on: each colour that
+/// is seen is a region, later bodies cover earlier ones.
+class BodyScene {
+ public:
+  explicit BodyScene(Size size = {320, 240}, Scope scope = Scope::Foreground)
+      : size_(size), scope_(scope) {}
+
+  std::shared_ptr<const Objects> show(const std::vector<Body>& bodies,
+                                      const std::vector<RegionMotion>& motions = {}) {
+    auto picture = std::make_shared<Picture>();
+    auto labels = std::make_shared<Labels>();
+    labels->size = size_;
+    labels->status = Status::Ok;
+    labels->scope = scope_;
+    labels->ids.resize(size_);
+    labels->ids.fill(0);
+    std::vector<uint8_t> pixels(static_cast<size_t>(size_.area()) * 3, 90);
+    for (size_t i = 0; i < bodies.size(); ++i)
+      paint(bodies[i], static_cast<uint16_t>(i + 1), labels->ids, pixels);
+    const PlaneMemory plane{pixels.data(), pixels.size(), size_.width * 3};
+    picture->load(*Frame::make({PixelFormat::Rgb, size_}, std::span(&plane, 1)), Executor(1));
+    labels->picture = picture;
+    // Labels count without gaps: a body that can't be seen has none.
+    std::vector<uint16_t> labelOf(bodies.size() + 1, 0);
+    for (int y = 0; y < size_.height; ++y)
+      for (int x = 0; x < size_.width; ++x) labelOf[labels->ids.at(x, y)] = 1;
+    labelOf[0] = 0;
+    std::vector<RegionMotion> seen;
+    for (size_t i = 1; i < labelOf.size(); ++i) {
+      if (labelOf[i] == 0) continue;
+      labelOf[i] = static_cast<uint16_t>(++labels->count);
+      seen.push_back(i <= motions.size() ? motions[i - 1] : RegionMotion{});
+    }
+    for (int y = 0; y < size_.height; ++y)
+      for (int x = 0; x < size_.width; ++x) labels->ids.at(x, y) = labelOf[labels->ids.at(x, y)];
+    const Context context{std::make_shared<const Executor>(1), nullptr};
+    auto motion = std::make_shared<Motion>();
+    motion->size = size_;
+    motion->status = Status::Ok;
+    motion->graph = *makeGraphStage(context)->process(labels, {});
+    motion->regions = seen;
+    return process(motion);
+  }
+  std::shared_ptr<const Objects> skip() {
+    auto motion = std::make_shared<Motion>();
+    motion->size = size_;
+    return process(motion);
+  }
+  ObjectStage& stage() { return *stage_; }
+  void wait(int64_t ns) { time_.ns += ns; }
+  void forgetTime() { time_.isKnown = false; }
+
+ private:
+  static void paint(const Body& body, uint16_t label, Image<uint16_t>& ids,
+                    std::vector<uint8_t>& pixels) {
+    const Box box = intersect(body.box, boundsOf(ids.size()));
+    for (int y = box.y; y < box.bottom(); ++y)
+      for (int x = box.x; x < box.right(); ++x) {
+        ids.at(x, y) = label;
+        uint8_t* pixel = pixels.data() + 3 * (y * ids.width() + x);
+        pixel[0] = body.colour.red;
+        pixel[1] = body.colour.green;
+        pixel[2] = body.colour.blue;
+      }
+  }
+  std::shared_ptr<const Objects> process(std::shared_ptr<const Motion> motion) {
+    auto result = stage_->process(std::move(motion), {}, time_);
+    EXPECT_TRUE(result);
+    time_.ns += kStepNs;
+    return *result;
+  }
+  Size size_;
+  Scope scope_;
+  FrameTime time_{0, true};
+  std::unique_ptr<ObjectStage> stage_ =
+      makeObjectStage({std::make_shared<const Executor>(1), nullptr});
+};
+
+}  // namespace rg

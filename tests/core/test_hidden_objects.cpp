@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Objects of which only a part is seen: behind the scene, behind another one, or in company.
+#include "tests/core/body_scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rg {
+namespace {
+
+constexpr Colour kRed{200, 30, 30}, kBlue{30, 40, 200}, kGreen{30, 180, 40}, kGold{210, 180, 20};
+
+/// A body whose upper and lower half, and left and right half below, differ in colour.
+std::vector<Body> carAt(int x, int y, Colour top, Colour bottom) {
+  return {{{x, y, 40, 16}, top}, {{x, y + 16, 20, 16}, bottom}, {{x + 20, y + 16, 20, 16}, kGold}};
+}
+
+std::vector<Body> operator+(std::vector<Body> a, const std::vector<Body>& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+/// What of the bodies a pillar from `left` to `right` leaves to be seen.
+std::vector<Body> behindPillar(std::vector<Body> bodies, int left, int right) {
+  std::vector<Body> seen;
+  for (const Body& body : bodies) {
+    const Box& box = body.box;
+    const int end = std::min(box.right(), left), begin = std::max(box.x, right);
+    if (end > box.x) seen.push_back({{box.x, box.y, end - box.x, box.height}, body.colour});
+    if (begin < box.right())
+      seen.push_back({{begin, box.y, box.right() - begin, box.height}, body.colour});
+  }
+  return seen;
+}
+
+const Object* find(const Objects& objects, uint64_t id) {
+  const auto at = std::find_if(objects.objects.begin(), objects.objects.end(),
+                               [&](const Object& object) { return object.id == id; });
+  return at == objects.objects.end() || !isListed(at->state) ? nullptr : &*at;
+}
+
+/// The first is the one of the two at the left.
+std::pair<uint64_t, uint64_t> idsOf(const Objects& objects, Point left) {
+  const bool isFirst = std::abs(objects.objects.at(0).box.x - left.x) < 20;
+  return isFirst ? std::pair<uint64_t, uint64_t>{1, 2} : std::pair<uint64_t, uint64_t>{2, 1};
+}
+
+void expectAt(const Objects& objects, uint64_t id, Point corner, const char* when, int step) {
+  const Object* object = find(objects, id);
+  ASSERT_NE(object, nullptr) << when << ' ' << step;
+  EXPECT_NEAR(object->box.x, corner.x, 3) << when << ' ' << step;
+  EXPECT_NEAR(object->box.y, corner.y, 3) << when << ' ' << step;
+  EXPECT_NEAR(object->box.width, 40, 4) << when << ' ' << step;
+  EXPECT_NEAR(object->box.height, 32, 4) << when << ' ' << step;
+}
+
+TEST(HiddenObjects, WhatDisappearsSlowlyBehindAPillarKeepsItsBox) {
+  BodyScene scene;
+  int x = -40;
+  for (; x < 110; x += 3) scene.show(carAt(x, 100, kRed, kBlue));
+  // A pixel per frame: part of it is hidden for longer than all of it was seen before.
+  for (int step = 0; step < 32; ++step, ++x)
+    expectAt(*scene.show(behindPillar(carAt(x, 100, kRed, kBlue), 146, 260)), 1, {x, 100}, "in",
+             step);
+}
+
+TEST(HiddenObjects, AFewPixelsTellWhereItComesOut) {
+  BodyScene scene;
+  int x = -40;
+  for (; x < 118; x += 3) scene.show(carAt(x, 100, kRed, kBlue));
+  for (; x < 180; x += 3) scene.show(behindPillar(carAt(x, 100, kRed, kBlue), 120, 215));
+  for (; x < 230; x += 3)
+    expectAt(*scene.show(behindPillar(carAt(x, 100, kRed, kBlue), 120, 215)), 1, {x, 100}, "out",
+             x);
+}
+
+TEST(HiddenObjects, WhoIsBehindAnotherKeepsItsPlace) {
+  BodyScene scene;
+  std::pair<uint64_t, uint64_t> ids;
+  for (int i = 0; i < 75; ++i) {
+    const Point rear{-40 + 4 * i, 96}, front{280 - 4 * i, 104};
+    const auto objects =
+        scene.show(carAt(rear.x, rear.y, kRed, kBlue) + carAt(front.x, front.y, kGreen, kRed));
+    if (i == 20) ids = idsOf(*objects, rear);
+    if (i < 20) continue;
+    expectAt(*objects, ids.first, rear, "rear", i);
+    expectAt(*objects, ids.second, front, "front", i);
+  }
+}
+
+TEST(HiddenObjects, TwinsThatCrossGoOnAsTheyDid) {
+  BodyScene scene;
+  std::pair<uint64_t, uint64_t> ids;
+  for (int i = 0; i < 70; ++i) {
+    const Point rear{-40 + 4 * i, 100}, front{281 - 4 * i, 104};
+    const auto objects =
+        scene.show(carAt(rear.x, rear.y, kRed, kBlue) + carAt(front.x, front.y, kRed, kBlue));
+    if (i == 20) ids = idsOf(*objects, rear);
+    if (i < 20) continue;
+    expectAt(*objects, ids.first, rear, "rear", i);
+    expectAt(*objects, ids.second, front, "front", i);
+  }
+}
+
+TEST(HiddenObjects, WhoMeetAndTurnBackKeepTheirNumbers) {
+  BodyScene scene;
+  std::pair<uint64_t, uint64_t> ids;
+  for (int i = 0; i < 70; ++i) {
+    const int way = i < 34 ? i : 68 - i;
+    const Point rear{-40 + 4 * way, 96}, front{260 - 4 * way, 104};
+    const auto objects =
+        scene.show(carAt(rear.x, rear.y, kRed, kBlue) + carAt(front.x, front.y, kGreen, kRed));
+    if (i == 20) ids = idsOf(*objects, rear);
+    if (i < 20 || rear.x < 4) continue;
+    expectAt(*objects, ids.first, rear, "rear", i);
+    expectAt(*objects, ids.second, front, "front", i);
+  }
+}
+
+TEST(HiddenObjects, WhatLeavesSlowlyIsNoNewObject) {
+  BodyScene scene;
+  for (int x = 140; x < 282; x += 4) scene.show(carAt(x, 100, kRed, kBlue));
+  for (int x = 282; x < 325; ++x)
+    for (const Object& object : scene.show(carAt(x, 100, kRed, kBlue))->objects)
+      EXPECT_TRUE(object.id == 1 || !isListed(object.state)) << x;
+}
+
+}  // namespace
+}  // namespace rg
