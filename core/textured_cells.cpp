@@ -14,6 +14,9 @@ constexpr uint32_t kCellsInPart = kPartHeight / kCellSize;
 constexpr int kBlocksInCell = 2 * kCellSize;
 constexpr uint64_t kCellBlocks = (uint64_t{1} << kBlocksInCell) - 1;
 
+/// Cells with fewer matched pixels are not worth their time: the rest counts as flat.
+constexpr uint32_t kLeastPx = kCellSize * kCellSize / 2;
+
 constexpr uint32_t reverseBits(uint32_t bits) {
   uint32_t reversed = 0;
   for (int i = 0; i < 32; ++i) reversed |= (bits >> i & 1) << (31 - i);
@@ -33,7 +36,7 @@ constexpr int kTextureShift = 60, kTurnShift = 32, kTurnBits = kTextureShift - k
 /// The cells of larger ranks are kept first. Turns whose bits are reversed are spread evenly.
 uint64_t rankOf(const MatchedPart& cell, size_t turn, ImageView<const uint8_t> luma) {
   const GradientProducts sums = sumGradients({&cell, 1}, luma);
-  const auto mean = static_cast<uint64_t>(sums.xx + sums.yy) / cell.pixels();
+  const auto mean = static_cast<uint64_t>(sums.xx + sums.yy) / std::max(cell.pixels(), kLeastPx);
   const auto texture = static_cast<uint64_t>(std::bit_width(mean)) / 2;
   const uint64_t later = reverseBits(static_cast<uint32_t>(turn)) >> (32 - kTurnBits);
   return texture << kTextureShift | ((uint64_t{1} << kTurnBits) - 1 - later) << kTurnShift;
