@@ -9,7 +9,6 @@ namespace {
 
 constexpr uint64_t kNoChoice = ~uint64_t{0};
 constexpr uint32_t kUnseen = ~uint32_t{0};
-constexpr uint32_t kLimitGrowth = 4;
 constexpr int kMeanFractionBits = 4;
 /// Colours that differ by less than 4 grey levels: there the border's length decides.
 constexpr uint32_t kAlike = 4 << kMeanFractionBits;
@@ -29,7 +28,7 @@ void Absorption::run(const AbsorptionLimits& limits) {
   joinBorders();
 
   for (uint32_t area = limits.grainPx * limits.grainPx; area < limits.minAreaPx;) {
-    area = std::min(area * kLimitGrowth, limits.minAreaPx);
+    area = std::min(area * limits.growth, limits.minAreaPx);
     do chooseAllBelow(area);
     while (mergeRound() > 0);
   }

@@ -31,6 +31,7 @@ struct AbsorptionLimits {
   uint32_t minAreaPx = 1;
   uint32_t maxRegions = 1024;
   uint32_t grainPx = 1;  ///< Side of the cells that the initial regions are made of.
+  uint32_t growth = 4;   ///< Of the limit, from round to round.
 };
 
 class Absorption {

@@ -8,6 +8,10 @@
 namespace rg {
 namespace {
 
+/// Of the least area between rounds: pieces that the pixels at a border left mostly touch one
+/// region only, and the order in which they go matters less.
+constexpr uint32_t kPieceGrowth = 16;
+
 /// Writes whole blocks where the row goes on: what is written beyond a run is written again.
 void fillRun(const PixelRun& run, uint16_t value, int width, uint16_t* to) {
   constexpr int kBlock = 32;
@@ -35,7 +39,8 @@ uint32_t RegionDivision::run(const ColourPlanes& planes, const PixelRuns& runs,
       region.blue += sums.blue;
       region.areaPx += sums.areaPx;
     }
-  return divide(limits, executor, ids);
+  const auto grainPx = static_cast<uint32_t>(planes.sidePx);
+  return divide({limits.minAreaPx, limits.maxRegions, grainPx}, executor, ids);
 }
 
 uint32_t RegionDivision::runAgain(const RegionDivision& first, const ColourPlanes& planes,
@@ -59,13 +64,13 @@ uint32_t RegionDivision::runAgain(const RegionDivision& first, const ColourPlane
     region.green = whole.green * region.areaPx / whole.areaPx;
     region.blue = whole.blue * region.areaPx / whole.areaPx;
   }
-  return divide(limits, executor, ids);
+  return divide({limits.minAreaPx, limits.maxRegions, 1, kPieceGrowth}, executor, ids);
 }
 
-uint32_t RegionDivision::divide(const Limits& limits, const Executor& executor,
+uint32_t RegionDivision::divide(const AbsorptionLimits& limits, const Executor& executor,
                                 ImageView<uint16_t> ids) {
   collectBorders();
-  absorption_.run({limits.minAreaPx, limits.maxRegions, static_cast<uint32_t>(planes_.sidePx)});
+  absorption_.run(limits);
   const uint32_t count = numberRegions(limits.maxRegions);
   executor.forRows(planes_.size.height, [&](int first, int last) {
     for (int y = first; y < last; ++y) writeRow(y, ids.row(y));

@@ -36,7 +36,8 @@ class RegionDivision {
                     const Limits& limits, const Executor& executor, ImageView<uint16_t> ids);
 
  private:
-  uint32_t divide(const Limits& limits, const Executor& executor, ImageView<uint16_t> ids);
+  uint32_t divide(const AbsorptionLimits& limits, const Executor& executor,
+                  ImageView<uint16_t> ids);
   void sumParts(const Executor& executor);
   void addRow(int y);
   void collectBorders();
