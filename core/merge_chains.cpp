@@ -13,6 +13,8 @@ constexpr uint32_t kNone = UINT32_MAX;
 class ChainSearch {
  public:
   ChainSearch(std::vector<uint32_t>& groupOf, MergeScratch& s) : groupOf_(groupOf), s_(s) {
+    s_.gain.resize(groupOf.size());
+    s_.notedAt.assign(groupOf.size(), 0);
     s_.groupSize.assign(groupOf.size(), 0);
     for (const uint32_t group : groupOf) ++s_.groupSize[group];
   }
@@ -64,19 +66,35 @@ class ChainSearch {
     groupOf_[node] = to;
   }
 
-  /// The neighbour of the chain that gains most by changing between its two groups.
-  [[nodiscard]] uint32_t bestFollower(size_t length, uint32_t a, uint32_t b, int64_t& gain) const {
-    uint32_t best = kNone;
-    for (size_t i = 0; i < length; ++i)
-      for (const WeightedArc& arc : s_.arcsOf(chain_[i])) {
-        const uint32_t node = arc.b, group = groupOf_[node];
-        if ((group != a && group != b) || isInChain(node, length)) continue;
-        const int64_t nodeGain = gainOf(node, group == a ? b : a);
-        if (best == kNone || nodeGain > gain || (nodeGain == gain && node < best)) {
-          best = node;
-          gain = nodeGain;
-        }
+  /// After the chain's last node has changed groups: what each of its neighbours in the two groups
+  /// would gain by doing so.
+  void noteGains(size_t length, uint32_t a, uint32_t b) {
+    const uint32_t mover = chain_[length - 1];
+    const auto step = static_cast<uint8_t>(length);
+    for (const WeightedArc& arc : s_.arcsOf(mover)) {
+      const uint32_t node = arc.b, group = groupOf_[node];
+      if ((group != a && group != b) || s_.notedAt[node] == step) continue;
+      if (s_.notedAt[node] != 0) {
+        s_.gain[node] += group == groupOf_[mover] ? -2 * arc.weight : 2 * arc.weight;
+        continue;
       }
+      s_.notedAt[node] = step;
+      s_.gain[node] = gainOf(node, group == a ? b : a);
+      s_.noted.push_back(node);
+    }
+  }
+
+  /// The neighbour of the chain that gains most by changing between its two groups.
+  [[nodiscard]] uint32_t bestFollower(size_t length, int64_t& gain) const {
+    uint32_t best = kNone;
+    for (const uint32_t node : s_.noted) {
+      if (isInChain(node, length)) continue;
+      const int64_t nodeGain = s_.gain[node];
+      if (best == kNone || nodeGain > gain || (nodeGain == gain && node < best)) {
+        best = node;
+        gain = nodeGain;
+      }
+    }
     return best;
   }
 
@@ -98,10 +116,13 @@ class ChainSearch {
       }
       if (length == chain_.size()) break;
       int64_t more = 0;
-      node = bestFollower(length, from, to, more);
+      noteGains(length, from, to);
+      node = bestFollower(length, more);
       if (node == kNone) break;
       gain += more;
     }
+    for (const uint32_t other : s_.noted) s_.notedAt[other] = 0;
+    s_.noted.clear();
     for (size_t i = length; i > kept; --i)
       move(chain_[i - 1], groupOf_[chain_[i - 1]] == from ? to : from);
     if (kept > 0) empty_ = 0;

@@ -66,6 +66,9 @@ struct MergeScratch {
   std::vector<uint8_t> isSettled;  ///< Of each node: nothing changed around it since its last turn.
   std::vector<uint32_t> groupSize;
   std::vector<uint32_t> touched;
+  std::vector<uint8_t> notedAt;  ///< Of each node the length of the chain that it was met at, or 0.
+  std::vector<int64_t> gain;     ///< Of those, by changing between the chain's two groups.
+  std::vector<uint32_t> noted;
 
   [[nodiscard]] std::span<const WeightedArc> arcsOf(uint32_t node) const {
     return {neighbours.data() + firstArc[node], neighbours.data() + firstArc[node + 1]};

@@ -88,6 +88,9 @@ HWY_EXPORT(sumBoxRow);
 HWY_EXPORT(sumDifferences);
 HWY_EXPORT(isAnySet);
 HWY_EXPORT(raiseRow);
+
+/// What is shorter (the runs of a frame of noise) is done before a target is looked up.
+constexpr int kShort = 16;
 }  // namespace
 
 void smoothRow(const ThreeRows& rows, int count, uint8_t* to) {
@@ -103,14 +106,17 @@ void sumBoxRow(const BoxRows& from, int count, uint16_t* to) {
 }
 
 DifferenceSums sumDifferences(const ComparedRows& rows, int count) {
+  if (count < kShort) return HWY_STATIC_DISPATCH(sumDifferences)(rows, count);
   return HWY_DYNAMIC_DISPATCH(sumDifferences)(rows, count);
 }
 
 bool isAnySet(const uint16_t* values, int count) {
+  if (count < kShort) return HWY_STATIC_DISPATCH(isAnySet)(values, count);
   return HWY_DYNAMIC_DISPATCH(isAnySet)(values, count);
 }
 
 void raiseRow(uint16_t* values, int count, uint16_t to) {
+  if (count < kShort) return HWY_STATIC_DISPATCH(raiseRow)(values, count, to);
   HWY_DYNAMIC_DISPATCH(raiseRow)(values, count, to);
 }
 
