@@ -19,11 +19,11 @@ struct ArcEnergy {
 };
 
 /// The arc between a region and the ground, where the camera moves; kept where the region is
-/// background. Below 0 where the ground's motion explains the region better, or where an object is
-/// expected.
+/// background.
 struct GroundEnergy {
-  int64_t motion = 0;      ///< U1.
-  int64_t prediction = 0;  ///< As in ArcEnergy.
+  int64_t motion = 0;      ///< U1: it moves otherwise; below 0 where the ground's motion explains
+                           ///< it better.
+  int64_t prediction = 0;  ///< No object was expected there.
 
   [[nodiscard]] constexpr int64_t weight() const { return prediction - motion; }
   friend constexpr bool operator==(const GroundEnergy&, const GroundEnergy&) = default;

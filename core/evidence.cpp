@@ -52,8 +52,11 @@ void findBins(const Picture& picture, const RegionRun& cells, Evidence& e) {
   }
 }
 
-constexpr int kLeastApart =
-    6;  // Sixteenths of a pixel per frame: parts of one thing differ by less.
+// Sixteenths of a pixel per frame by which two things differ of which one is at most kAlikeShare
+// times as large as the other. The less there is of a group, the more its motion is off.
+constexpr int64_t kLeastApart = 6;
+constexpr int64_t kAlikeShare = 3;
+constexpr int64_t kMostCells = 1 << 16;
 
 }  // namespace
 
@@ -89,9 +92,12 @@ bool areApart(const Evidence& e, uint16_t a, uint16_t b) {
   const uint32_t p = e.cellsOf[a - 1u], q = e.cellsOf[b - 1u];
   if (e.motionOf.empty()) return false;
   const Point v = e.motionOf[a - 1u], w = e.motionOf[b - 1u];
-  const int dx = v.x - w.x, dy = v.y - w.y;
-  if (dx * dx + dy * dy < kLeastApart * kLeastApart) return false;
-  return 3 * std::min(p, q) >= std::max(p, q);
+  const int64_t dx = v.x - w.x, dy = v.y - w.y;
+  const int64_t smaller = std::min<int64_t>(std::min(p, q), kMostCells);
+  const int64_t larger = std::min<int64_t>(std::max(p, q), kMostCells);
+  const int64_t least = kLeastApart * std::max(larger, kAlikeShare * smaller);
+  const int64_t share = kAlikeShare * smaller;
+  return (dx * dx + dy * dy) * share * share >= least * least;
 }
 
 void Evidence::listRuns() {

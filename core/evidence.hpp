@@ -77,8 +77,8 @@ void gather(const Graph& graph, std::span<const uint32_t> groupOf,
             std::span<const uint8_t> isBackground, std::span<const uint32_t> expectedOf,
             Evidence& evidence);
 
-/// Whether two groups are two things: where movers are shown and they move differently, unless one
-/// is a bit of the other.
+/// Whether two groups are two things: where movers are shown and they move differently, the more so
+/// the smaller one is against the other.
 [[nodiscard]] bool areApart(const Evidence& evidence, uint16_t a, uint16_t b);
 
 }  // namespace rg

@@ -6,6 +6,8 @@
 namespace rg {
 namespace {
 
+constexpr uint32_t kNoGroup = UINT32_MAX;
+
 /// Returns the number of nodes.
 uint32_t listNodes(const GroundTies& ties, GroundScratch& s) {
   const auto ground = static_cast<uint32_t>(std::count_if(

@@ -15,8 +15,6 @@
 
 namespace rg {
 
-inline constexpr uint32_t kNoGroup = UINT32_MAX;
-
 /// What is known of each region.
 struct GroundTies {
   std::span<const GroundEnergy> energies;
@@ -33,7 +31,7 @@ struct GroundScratch {
 
 /// arcs: of the graph, as weighArcs() made them. groupOf: a start on entry, one entry per region,
 /// where things that don't move count as the ground whatever it says. Returns the ground's group,
-/// kNoGroup where it has no region.
+/// UINT32_MAX where it has no region.
 uint32_t minimiseWithGround(const Graph& graph, std::span<const ArcEnergy> arcs,
                             const GroundTies& ties, GroundScratch& scratch, MergeScratch& merging,
                             std::vector<uint32_t>& groupOf);

@@ -139,7 +139,7 @@ GroundEnergy weighGround(int64_t gain, int64_t areaPx, bool isExpected,
                          const MergeWeights& weights) {
   const int64_t rootArea = integerSqrt(static_cast<uint64_t>(areaPx));
   return {.motion = weights.motion * gain / kGainUnit,
-          .prediction = isExpected ? -weights.prediction * rootArea : 0};
+          .prediction = isExpected ? 0 : weights.prediction * rootArea};
 }
 
 void listArcs(const Graph& graph, std::span<const ArcEnergy> energies,

@@ -10,7 +10,7 @@
 //
 // Where the camera moves, the ground is one more node, with an arc to every region: that weighs by
 // how much better the camera's motion explains the region's pixels than another (U1,
-// core/own_motion.hpp), less the prediction where the region is expected to be an object. What ends
+// core/own_motion.hpp), and by the prediction where no object is expected in the region. What ends
 // up in the ground's group is background. So the same sum decides what moves at all.
 //
 // Determinism: integers; every choice has a key (weight, then a hash of the two labels, then the

@@ -54,7 +54,7 @@ class CpuObjectStage final : public ObjectStage {
   void tieToGround(const Graph& graph, const MergeWeights& weights,
                    std::vector<GroundEnergy>& energies) const;
   void markSurroundings(const Graph& graph, const Objects& objects);
-  void markBackground(const Graph& graph, const Objects& objects, uint32_t ground);
+  void markBackground(const Graph& graph, const Objects& objects);
   void givePixels(const Graph& graph, Objects& objects);
   void describe(const Graph& graph, bool hasTime, Objects& objects);
   void nameRegions(const Graph& graph, Objects& objects);
@@ -139,7 +139,6 @@ void CpuObjectStage::mergeRegions(const Motion& motion, const ObjectParams& para
   expectLabels(graph, stepNs, objects);
   weighArcs(motion, expected_, weights, objects.arcs);
   startGroups(groupOf);
-  uint32_t ground = kNoGroup;
   if (graph.labels->scope == Scope::Frame) {
     own_.assign(graph.regions.size(), {});
     ownMotionScratch_.moves.assign(graph.regions.size(), 0);
@@ -147,7 +146,7 @@ void CpuObjectStage::mergeRegions(const Motion& motion, const ObjectParams& para
       findOwnMotion(motion, previous->luma(), {camera, weights, expected_, shifts_}, *context_.cpu,
                     ownMotionScratch_, own_);
     tieToGround(graph, weights, objects.ground);
-    ground =
+    objects.groundGroup =
         minimiseWithGround(graph, objects.arcs, {objects.ground, own_, ownMotionScratch_.moves},
                            groundScratch_, mergeScratch_, groupOf);
   } else {
@@ -155,7 +154,7 @@ void CpuObjectStage::mergeRegions(const Motion& motion, const ObjectParams& para
     minimise(static_cast<uint32_t>(graph.regions.size()), arcs_, mergeScratch_, groupOf);
   }
   describeGroups(motion, groupOf, groups_);
-  markBackground(graph, objects, ground);
+  markBackground(graph, objects);
 }
 
 void CpuObjectStage::tieToGround(const Graph& graph, const MergeWeights& weights,
@@ -183,11 +182,11 @@ void CpuObjectStage::markSurroundings(const Graph& graph, const Objects& objects
   for (size_t g = 0; g < groups_.size(); ++g) isBackground_[g] = majority_[g] < 0;
 }
 
-/// ground: the group of the background under Scope::Frame.
-void CpuObjectStage::markBackground(const Graph& graph, const Objects& objects, uint32_t ground) {
+/// Under Scope::Frame the ground's group is the background.
+void CpuObjectStage::markBackground(const Graph& graph, const Objects& objects) {
   isBackground_.assign(groups_.size(), 0);
   if (graph.labels->scope == Scope::Areas) return markSurroundings(graph, objects);
-  if (ground != kNoGroup) isBackground_[ground] = 1;
+  if (objects.groundGroup != Objects::kNoGroup) isBackground_[objects.groundGroup] = 1;
 }
 
 void CpuObjectStage::givePixels(const Graph& graph, Objects& objects) {
@@ -261,6 +260,7 @@ Result<std::shared_ptr<const Objects>> CpuObjectStage::process(std::shared_ptr<c
   objects->regionExpected.clear();
   objects->regionGroup.clear();
   objects->arcs.clear();
+  objects->groundGroup = Objects::kNoGroup;
   objects->ground.clear();
   objects->cameraDx = objects->cameraDy = 0;
   const TrackerParams tracking{

@@ -73,6 +73,8 @@ struct Objects {
   std::vector<uint32_t> regionGroup;     ///< For each region the group that it was merged into.
   std::vector<ArcEnergy> arcs;  ///< Parallel to the graph's arcs; kept where both ends are in one
                                 ///< group, broken elsewhere.
+  static constexpr uint32_t kNoGroup = UINT32_MAX;
+  uint32_t groundGroup = kNoGroup;   ///< What is background under a moving camera.
   std::vector<GroundEnergy> ground;  ///< Of each region's arc to the ground, under a moving camera;
                                      ///< empty otherwise. Kept where the region is background.
   int32_t cameraDx = 0;  ///< Motion of the background since the previous frame, in 1/16 px.
@@ -91,6 +93,7 @@ struct Objects {
     regionExpected = other.regionExpected;
     regionGroup = other.regionGroup;
     arcs = other.arcs;
+    groundGroup = other.groundGroup;
     ground = other.ground;
     cameraDx = other.cameraDx;
     cameraDy = other.cameraDy;

@@ -4,6 +4,8 @@
 #include "core/mapping.hpp"
 #include "core/text/json_parts.hpp"
 
+#include <algorithm>
+
 namespace rg::text {
 namespace {
 
@@ -24,6 +26,20 @@ void appendTerms(std::string& out, const ArcEnergy& energy) {
   appendReal(out, "prediction", energy.prediction, kEnergyUnit);
 }
 
+bool isGround(const Objects& objects, size_t region) {
+  return objects.regionGroup[region] == objects.groundGroup;
+}
+
+/// U1 below 0 counts for what is not ground.
+void addGround(const Objects& objects, ArcEnergy& sum) {
+  for (size_t i = 0; i < objects.ground.size(); ++i) {
+    const GroundEnergy& energy = objects.ground[i];
+    const bool isKept = isGround(objects, i);
+    sum.motion += std::max(int64_t{0}, isKept ? energy.motion : -energy.motion);
+    sum.prediction += isKept ? 0 : energy.prediction;
+  }
+}
+
 /// The terms of U that count: U1 of kept arcs, the others of broken ones.
 void appendTotals(std::string& out, const Objects& objects, const Graph* graph) {
   ArcEnergy sum;
@@ -37,11 +53,23 @@ void appendTotals(std::string& out, const Objects& objects, const Graph* graph) 
       sum.prediction += arc.prediction;
     }
   }
+  addGround(objects, sum);
   out += ",\"energy\":{";
   appendTerms(out, sum);
   out += ',';
   appendReal(out, "total", sum.motion + sum.border + sum.arc + sum.prediction, kEnergyUnit);
   out += '}';
+}
+
+void appendGround(std::string& out, const Objects& objects, size_t region) {
+  const GroundEnergy& energy = objects.ground[region];
+  out += ",\"ground\":{";
+  appendReal(out, "motion", energy.motion, kEnergyUnit);
+  out += ',';
+  appendReal(out, "prediction", energy.prediction, kEnergyUnit);
+  out += ',';
+  appendReal(out, "weight", energy.weight(), kEnergyUnit);
+  out += isGround(objects, region) ? ",\"kept\":true}" : ",\"kept\":false}";
 }
 
 void appendRegion(std::string& out, const Objects& objects, size_t index, const FrameMap& map) {
@@ -67,6 +95,7 @@ void appendRegion(std::string& out, const Objects& objects, size_t index, const 
   appendUnsigned(out, objects.regionExpected[index]);
   out += ",\"object\":";
   appendUnsigned(out, objects.regionObject[index]);
+  if (!objects.ground.empty()) appendGround(out, objects, index);
   out += '}';
 }
 

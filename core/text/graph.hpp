@@ -11,7 +11,7 @@
 
 namespace rg::text {
 
-inline constexpr std::string_view kGraphSchemaVersion = "1.0";
+inline constexpr std::string_view kGraphSchemaVersion = "1.1";
 
 /// Appends one line: the frame's energy, its regions in the order of their labels with what they
 /// were expected to be and became, and its arcs with what each adds to the energy and whether it

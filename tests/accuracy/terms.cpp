@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// What each term of the energy is worth: scenes with known truth under a panning camera, without
-// bgremove, so that the merging alone parts things from the ground. An arc between two regions is
-// told right when it is kept within a thing, or the ground, and broken between two.
+// What each term of the energy is worth: made-up scenes with known truth, with all terms and with
+// one left out at a time. Under a panning camera without bgremove, where the merging alone parts
+// things from the ground, also by arcs: one between two regions is told right when it is kept
+// within a thing, or the ground, and broken between two.
+#include "core/background.hpp"
 #include "core/objects.hpp"
 #include "core/pool.hpp"
 #include "tests/accuracy/painter.hpp"
+#include "tests/accuracy/verdict.hpp"
 #include "tests/support/value_of.hpp"
 
 #include <array>
@@ -53,16 +56,37 @@ struct Counts {
   }
 };
 
+/// What a set of scenes says of a trial: means over its seeds.
+struct Means {
+  Counts arcs;
+  double idf1 = 0, found = 0, falsePerFrame = 0, centroidPx = 0;
+  int seeds = 0;
+
+  void add(const Figures& figures) {
+    idf1 += figures.idf1;
+    found += figures.recall;
+    falsePerFrame += figures.falsePerFrame;
+    centroidPx += figures.centroidPx;
+    ++seeds;
+  }
+};
+
 /// Stage 5 with one term left out, or with all of them.
 struct Trial {
   const char* name;
+  double ObjectParams::*leftOut = nullptr;
   ObjectParams params;
   std::unique_ptr<ObjectStage> stage;
-  Counts counts, all;
+  Verdict verdict;
+  Means means;
 
+  /// owners: of the regions, as ownersOf() tells; empty where arcs don't count.
   void judge(const std::shared_ptr<const Motion>& motion, const std::vector<int>& owners,
-             FrameTime time) {
+             const Scene& scene, FrameTime time) {
     const auto objects = valueOf(stage->process(motion, params, time));
+    verdict.add(scene, *objects);
+    if (owners.empty()) return;
+    Counts& counts = means.arcs;
     if (objects->arcs.empty()) return;
     for (const Arc& arc : motion->graph->arcs) {
       const size_t a = arc.a - 1u, b = arc.b - 1u;
@@ -79,68 +103,80 @@ struct Trial {
   }
 };
 
-std::array<Trial, 5> makeTrials(const Context& context) {
-  std::array<Trial, 5> trials{{{"all terms", {}, {}, {}, {}},
-                               {"without U1", {}, {}, {}, {}},
-                               {"without U2", {}, {}, {}, {}},
-                               {"without U3", {}, {}, {}, {}},
-                               {"no prediction", {}, {}, {}, {}}}};
-  trials[1].params.motionWeight = 0;
-  trials[2].params.borderWeight = 0;
-  trials[3].params.arcWeight = 0;
-  trials[4].params.predictionWeight = 0;
-  for (Trial& trial : trials) trial.stage = makeObjectStage(context);
+using Trials = std::array<Trial, 5>;
+
+Trials makeTrials(const Context& context) {
+  Trials trials{{{"all terms", nullptr, {}, {}, {}, {}},
+                 {"without U1", &ObjectParams::motionWeight, {}, {}, {}, {}},
+                 {"without U2", &ObjectParams::borderWeight, {}, {}, {}, {}},
+                 {"without U3", &ObjectParams::arcWeight, {}, {}, {}, {}},
+                 {"no prediction", &ObjectParams::predictionWeight, {}, {}, {}, {}}}};
+  for (Trial& trial : trials) {
+    if (trial.leftOut) trial.params.*trial.leftOut = 0;
+    trial.stage = makeObjectStage(context);
+  }
   return trials;
 }
 
-void play(uint32_t seed, Size size, const Context& context, std::array<Trial, 5>& trials) {
-  Plan plan = planPan(seed, size);
+void play(uint32_t seed, bool isPan, const Context& context, Trials& trials) {
+  constexpr Size kSize{640, 480};
+  Plan plan = isPan ? planPan(seed, kSize) : planStill(seed, kSize);
   const Size canvas = plan.canvas;
   Painter painter(std::move(plan), makeYard(seed, canvas), seed);
+  const auto background = isPan ? nullptr : makeBackgroundStage(context);
   const auto segmentation = makeSegmentationStage(context);
   const auto graph = makeGraphStage(context);
   const auto motion = makeMotionStage(context);
   Pool<Picture> pictures;
   bench::RawFrame frame;
-  Scene scene;
+  truth::Scene scene;
   for (int64_t number = 0; painter.next(frame, scene); ++number) {
+    const FrameTime time{number * 40'000'000, true};
     const auto picture = pictures.take();
     picture->load(frame.view(), *context.cpu);
-    const auto labels = valueOf(segmentation->process(picture, nullptr, {}));
+    std::shared_ptr<const Foreground> foreground;
+    SegmentationParams params;
+    if (background) {
+      foreground = valueOf(background->process(picture, {}, time));
+      params.scope = Scope::Foreground;
+    }
+    const auto labels = valueOf(segmentation->process(picture, foreground, params));
     const auto regions = valueOf(graph->process(labels, {}));
     const auto moved = valueOf(motion->process(regions, {}));
-    const std::vector<int> owners = ownersOf(*regions, painter.top());
-    for (Trial& trial : trials) trial.judge(moved, owners, {number * 40'000'000, true});
+    const auto owners =
+        isPan && number > 0 ? ownersOf(*regions, painter.top()) : std::vector<int>{};
+    for (Trial& trial : trials) trial.judge(moved, owners, scene, time);
   }
 }
 
-void printRow(const char* name, const std::array<Trial, 5>& trials, Counts Trial::*counts) {
-  std::printf("%-8s", name);
-  for (const Trial& trial : trials) std::printf(" %14.2f", (trial.*counts).right());
+void print(const char* set, bool isPan, const Trials& trials) {
+  std::printf("%-16s", set);
+  for (const Trial& trial : trials) std::printf(" %13s", trial.name);
+  const auto row = [&](const char* name, const auto& valueOfMeans) {
+    std::printf("\n%-16s", name);
+    for (const Trial& trial : trials) std::printf(" %13.4f", valueOfMeans(trial.means));
+  };
+  const auto share = [](double sum, const Means& m) { return sum / m.seeds; };
+  if (isPan) row("arcs right, %", [](const Means& m) { return m.arcs.right(); });
+  row("IDF1", [&](const Means& m) { return share(m.idf1, m); });
+  row("found", [&](const Means& m) { return share(m.found, m); });
+  row("false a frame", [&](const Means& m) { return share(m.falsePerFrame, m); });
+  row("centroid, px", [&](const Means& m) { return share(m.centroidPx, m); });
   std::printf("\n");
 }
 
-int run(uint32_t first, uint32_t last) {
+int run(uint32_t first, uint32_t last, bool isPan) {
   const Context context{std::make_shared<const Executor>(0), nullptr};
-  auto trials = makeTrials(context);
-  std::printf("arcs told right, percent\n%-8s", "seed");
-  for (const Trial& trial : trials) std::printf(" %14s", trial.name);
-  std::printf("\n");
+  Trials trials = makeTrials(context);
   for (uint32_t seed = first; seed <= last; ++seed) {
     for (Trial& trial : trials) {
-      trial.counts = {};
-      trial.stage->reset(Reset::Stream);
+      trial.verdict = {};
+      trial.stage = makeObjectStage(context);
     }
-    play(seed, {640, 480}, context, trials);
-    printRow(std::to_string(seed).c_str(), trials, &Trial::counts);
-    for (Trial& trial : trials) {
-      trial.all.within += trial.counts.within;
-      trial.all.keptWithin += trial.counts.keptWithin;
-      trial.all.between += trial.counts.between;
-      trial.all.brokenBetween += trial.counts.brokenBetween;
-    }
+    play(seed, isPan, context, trials);
+    for (Trial& trial : trials) trial.means.add(trial.verdict.figures());
   }
-  printRow("all", trials, &Trial::all);
+  print(isPan ? "panning" : "still", isPan, trials);
   return 0;
 }
 
@@ -149,9 +185,12 @@ int run(uint32_t first, uint32_t last) {
 
 int main(int argc, char** argv) {
   unsigned first = 1, last = 8;
-  if (argc > 2 || (argc == 2 && std::sscanf(argv[1], "%u:%u", &first, &last) != 2)) {
-    std::cerr << "usage: terms [FIRST:LAST]\n  seeds of panning scenes (default 1:8)\n";
+  const std::string set = argc > 1 ? argv[1] : "pan";
+  const bool isKnown = set == "pan" || set == "still";
+  if (!isKnown || argc > 3 || (argc == 3 && std::sscanf(argv[2], "%u:%u", &first, &last) != 2)) {
+    std::cerr << "usage: terms [pan|still] [FIRST:LAST]\n  made-up scenes by their seeds (default "
+                 "pan 1:8)\n";
     return 2;
   }
-  return rg::truth::run(first, last);
+  return rg::truth::run(first, last, set == "pan");
 }

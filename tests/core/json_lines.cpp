@@ -84,6 +84,14 @@ Objects makeGraph(uint32_t areaPx, int32_t motion, int64_t energy) {
   return objects;
 }
 
+/// The third region is ground.
+Objects makeGrounded(int64_t energy) {
+  Objects objects = makeGraph(100, 20, 700);
+  objects.groundGroup = 1;
+  objects.ground = {{energy, 0}, {-energy, 256}, {-energy, energy}};
+  return objects;
+}
+
 void printGraphs() {
   std::string out;
   text::appendGraph(out, {}, {1, {1, 1}, {}, {}});
@@ -91,6 +99,8 @@ void printGraphs() {
   text::appendGraph(out, makeGraph(100, 20, 700), {3, {640, 360}, 0, 1'763'722'800'000'000'001});
   text::appendGraph(out, makeGraph(1u << 28, 1024, int64_t{1} << 46),
                     {kLatest, {16384, 16384}, kLatest, kLatest});
+  text::appendGraph(out, makeGrounded(700), {4, {320, 240}, 0, {}});
+  text::appendGraph(out, makeGrounded(int64_t{1} << 46), {5, {320, 240}, 0, {}});
   std::cout << out;
 }
 

@@ -263,7 +263,8 @@ class Plainly {
         if (arc.a == i + 1 || arc.b == i + 1)
           sides += (before[static_cast<size_t>(arc.a == i + 1 ? arc.b : arc.a) - 1] != 0 ? 1 : -1) *
                    (int64_t{arc.borderPx} + 1);
-      moves_[i] = 256 * sides + own_[i].gain > 0;
+      const int64_t unexpected = 512 * int64_t{integerSqrt(motion_.graph->regions[i].areaPx)};
+      moves_[i] = 256 * sides + own_[i].gain > unexpected;
     }
   }
 
