@@ -227,7 +227,8 @@ class Search {
         scratch_.leasts[static_cast<size_t>(row * groups_ + group)] =
             leastOf(bounds + group * kGroup, kGroup);
     }
-    return static_cast<uint32_t>(sum / static_cast<uint64_t>(side_ * side_));
+    const auto side = static_cast<uint64_t>(std::max(side_, 1));
+    return static_cast<uint32_t>(sum / (side * side));
   }
 
   void findBounds(int row, int column) {
