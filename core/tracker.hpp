@@ -184,6 +184,7 @@ class Tracker {
   void giveGroups(const Evidence& evidence, std::span<const Group> groups);
   void findBlobs(const Evidence& evidence);
   void findOwnBlobs(const Evidence& evidence);
+  [[nodiscard]] bool isComplete(size_t index, const Evidence& evidence) const;
   [[nodiscard]] bool isClear(size_t index, const Evidence& evidence) const;
   void listPortraits(const Evidence& evidence);
   void placeByPortraits(const Evidence& evidence, int64_t stepNs);

@@ -108,7 +108,8 @@ void Tracker::partTracks(const Evidence& e) {
     Track& track = tracks_[t];
     const Majority& other = majorities_[t];
     const bool isPair = blobOf_[t] != 0 && soleTrack_[blobOf_[t]] == t + 1 &&
-                        2 * other.votes > other.total && !sightings_[t].isMatched;
+                        2 * other.votes > other.total &&
+                        std::count(blobOf_.begin(), blobOf_.end(), other.value) == 0;
     if (!isPair) track.partOffset = INT32_MIN;
     if (!isPair) continue;
     const Piece &main = blobs_[blobOf_[t] - 1], &part = blobs_[other.value - 1];

@@ -83,6 +83,11 @@ void Tracker::listPortraits(const Evidence& e) {
   });
 }
 
+/// Whether nothing is missing of a track: its blob is all that it usually is.
+bool Tracker::isComplete(size_t index, const Evidence& e) const {
+  return isFaithful(tracks_[index]) && isClear(index, e);
+}
+
 /// Who is seen best stands in front and takes its place first; the others are looked for in what it
 /// leaves.
 void Tracker::placeByPortraits(const Evidence& e, int64_t stepNs) {

@@ -128,7 +128,8 @@ bool Tracker::areOneBody(const Evidence& e, size_t a, size_t b) const {
   if (blobOf_[a] != 0 && blobOf_[b] != 0 &&
       areApart(e, blobs_[blobOf_[a] - 1].group, blobs_[blobOf_[b] - 1].group))
     return false;
-  if (!scale_.isUniform() && movesOtherwise(p, q)) return false;
+  if (!scale_.isUniform() && (movesOtherwise(p, q) || isComplete(a, e) || isComplete(b, e)))
+    return false;
   if (outgrows(p, both) || outgrows(q, both)) return false;
   if (!scale_.isUniform() && blobOf_[a] != 0 && blobOf_[a] == blobOf_[b] &&
       std::min(p.apartNs, q.apartNs) < kDoubleNs)
