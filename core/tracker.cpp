@@ -268,8 +268,10 @@ void Tracker::sight() {
     // People's strides, of which a uniform scene is full, are no reason to distrust a box.
     s.isCutOff = isSole && !scale_.isUniform() && track.sizeSamples >= kTrustedSamples &&
                  isCutAtOneEnd(track, s.box, isRigid(track));
-    s.isWhole = (!s.isMatched || (isSole && 16 * s.share >= 15u * track.portrait.usual)) &&
-                !s.box.isEmpty() && isUsual && !s.isCutOff && 5 * s.othersCells < s.boxCells;
+    const bool isAllThere =
+        isSole && isAbout(s.box, track) && 16 * s.share >= 15u * track.portrait.usual;
+    s.isWhole = (!s.isMatched || isAllThere) && !s.box.isEmpty() && isUsual && !s.isCutOff &&
+                5 * s.othersCells < s.boxCells;
   }
 }
 

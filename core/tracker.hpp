@@ -185,6 +185,7 @@ class Tracker {
   void findBlobs(const Evidence& evidence);
   void findOwnBlobs(const Evidence& evidence);
   [[nodiscard]] bool isComplete(size_t index, const Evidence& evidence) const;
+  [[nodiscard]] bool isAbout(const Box& box, const Track& track) const;
   [[nodiscard]] bool isClear(size_t index, const Evidence& evidence) const;
   void listPortraits(const Evidence& evidence);
   void placeByPortraits(const Evidence& evidence, int64_t stepNs);

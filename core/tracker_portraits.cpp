@@ -43,6 +43,14 @@ bool Tracker::isFaithful(const Track& track) {
   return track.portrait.frames >= kKnownPortrait && track.portrait.usual >= kFaithful;
 }
 
+/// Whether a box of pixels is as large as a track, but for two cells or an eighth.
+bool Tracker::isAbout(const Box& box, const Track& track) const {
+  const auto isNear = [&](int px, int32_t size) {
+    return std::abs(int64_t{px} * kUnit - size) <= std::max<int64_t>(2 * stepPx_ * kUnit, size / 8);
+  };
+  return isNear(box.width, track.size.width) && isNear(box.height, track.size.height);
+}
+
 /// Whether the blob that a track has for itself is as large as it should be.
 bool Tracker::isClear(size_t index, const Evidence& e) const {
   const uint32_t blob = blobOf_[index];
@@ -52,11 +60,8 @@ bool Tracker::isClear(size_t index, const Evidence& e) const {
   const Box& box = blobs_[blob - 1].box;
   if (box.x <= 0 || box.y <= 0 || box.right() >= e.grid.width || box.bottom() >= e.grid.height)
     return false;
-  const auto isNear = [&](int cells, int32_t size) {
-    const int64_t off = std::abs(int64_t{cells} * e.stepPx * kUnit - size);
-    return off <= std::max<int64_t>(2 * e.stepPx * kUnit, size / 8);
-  };
-  return isNear(box.width, track.size.width) && isNear(box.height, track.size.height);
+  return isAbout({box.x * e.stepPx, box.y * e.stepPx, box.width * e.stepPx, box.height * e.stepPx},
+                 track);
 }
 
 /// The tracks that have a portrait and aren't clear give up their cells; those of clear ones are
