@@ -59,6 +59,8 @@ struct PortraitMatch {
   [[nodiscard]] int64_t value() const {
     return samples == 0 ? 0 : gain * 256 / static_cast<int64_t>(samples);
   }
+  /// Samples within the frame.
+  [[nodiscard]] uint32_t inside() const { return seen + covered + ground; }
   /// Share that agrees, in 1/256.
   [[nodiscard]] uint32_t share() const { return samples == 0 ? 0 : agreeing * 256 / samples; }
 };

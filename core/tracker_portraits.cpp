@@ -10,10 +10,10 @@ namespace rg {
 namespace {
 
 constexpr int kUnit = kPositionUnit;
-constexpr uint32_t kKnownPortrait = 4;   // Frames from which one can be looked for.
-constexpr uint32_t kFaithful = 160;      // Of 256: so much of a thing agrees that keeps its shape.
-constexpr uint32_t kLeastAgreeing = 12;  // Samples.
-constexpr int kFarFrom = 50;             // How little it matters where a hidden thing was expected.
+constexpr uint32_t kKnownPortrait = 4;  // Frames from which one can be looked for.
+constexpr uint32_t kFaithful = 160;     // Of 256: so much of a thing agrees that keeps its shape.
+constexpr uint32_t kLeastAgreeing = 8;  // Samples.
+constexpr int kFarFrom = 50;            // How little it matters where a hidden thing was expected.
 constexpr int64_t kReachNs = 100'000'000;
 
 Point cornerOf(const Track& track) {
@@ -152,7 +152,7 @@ void Tracker::giveMatch(const PortraitScene& scene, PortraitTask& task, int64_t 
   Track& track = tracks_[task.track];
   const PortraitMatch& match = task.match;
   Sighting& s = sightings_[task.track];
-  if (match.agreeing < kLeastAgreeing || 16 * match.agreeing < match.samples ||
+  if (match.agreeing < kLeastAgreeing || 16 * match.agreeing < match.inside() ||
       2 * match.agreeing < match.seen) {
     s.task = -1;
     if (track.unseenNs == 0) track.isBehind = 2 * match.covered >= match.samples;
