@@ -193,8 +193,7 @@ class Search {
   FoundShift run() {
     FoundShift found;
     found.mean = findBounds();
-    const auto guess = std::min_element(scratch_.leasts.begin(), scratch_.leasts.end());
-    sumGroup(static_cast<int>(guess - scratch_.leasts.begin()));
+    sumGroup(groupOfLeastBound());
     sumGroup(groupAt(range_.reach, range_.reach));
     sumGroups([this] { return leastInside_; });
     const Point best = findBest();
@@ -255,6 +254,14 @@ class Search {
       hn::StoreU(c, d, scratch_.bounds.row(row + 2) + first);
       hn::StoreU(e, d, scratch_.bounds.row(row + 3) + first);
     }
+  }
+
+  [[nodiscard]] int groupOfLeastBound() const {
+    int least = 0;
+    for (int group = 1; group < groups_ * side_; ++group)
+      if (scratch_.leasts[static_cast<size_t>(group)] < scratch_.leasts[static_cast<size_t>(least)])
+        least = group;
+    return least;
   }
 
   /// Shifts whose bound is not above what limit() says at the time; it never rises.
