@@ -275,6 +275,8 @@ class Search {
     uint8_t& isSummed = scratch_.isSummed[static_cast<size_t>(group)];
     if (isSummed != 0) return;
     isSummed = 1;
+    // The analyzer loses the constructor's values here.
+    // NOLINTNEXTLINE(clang-analyzer-core.UndefinedBinaryOperatorResult)
     const int row = group / groups_, column = group % groups_ * kGroup;
     const uint8_t* at = pixels_ + row * pixelStride_ + column;
     uint32_t* to = scratch_.sums.row(row) + column;
