@@ -12,6 +12,8 @@ namespace rg {
 namespace {
 
 constexpr int kMostSamples = 1500;
+constexpr int kFewSamples = 300;  // Of more, a quarter says where to look closely.
+constexpr int kCoarse = 4;        // Places on either side that are tried first.
 constexpr uint8_t kMostWeight = 8;
 constexpr int kGain = 8;     // Of a sample whose colour is there, at most; also the most it loses.
 constexpr int kPerGain = 4;  // Sums of three channels' differences that cost one.
@@ -211,11 +213,13 @@ PortraitMatch findPortrait(const Portrait& p, const PortraitScene& scene, Point 
         best = {dx, dy};
       }
   };
-  constexpr int kCoarse = 4;  // Places on either side.
-  const Point stride{(reach.x + kCoarse - 1) / kCoarse, (reach.y + kCoarse - 1) / kCoarse};
-  const Point around{reach.x / stride.x * stride.x, reach.y / stride.y * stride.y};
-  search({0, 0}, around, stride, p.grid.area() > 300 ? 2 : 1);
-  search(best, {stride.x, stride.y}, {1, 1}, p.grid.area() > 300 && stride.x > 2 ? 2 : 1);
+  const int skip = p.grid.area() > kFewSamples ? 2 : 1;
+  Point stride{(reach.x + kCoarse - 1) / kCoarse, (reach.y + kCoarse - 1) / kCoarse};
+  search({0, 0}, {reach.x / stride.x * stride.x, reach.y / stride.y * stride.y}, stride, skip);
+  while (stride.x > 1 || stride.y > 1) {
+    stride = {(stride.x + 1) / 2, (stride.y + 1) / 2};
+    search(best, {2 * stride.x, 2 * stride.y}, stride, skip);
+  }
   search(best, {1, 1}, {1, 1}, 1);
   const Score score = scoreAt(best.x, best.y, 1);
   const auto gainAt = [&](int dx, int dy) { return scoreAt(best.x + dx, best.y + dy, 1).gain; };

@@ -20,6 +20,7 @@
 #include "core/scene_scale.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -211,9 +212,12 @@ class Tracker {
   [[nodiscard]] bool isPartOf(const Newcomer& newcomer, const Track& track) const;
   void dropSmall(const Evidence& evidence, const TrackerParams& params);
   void rejoin(const Evidence& evidence);
-  [[nodiscard]] int64_t rejoinCost(const Track& track, const Newcomer& newcomer) const;
+  [[nodiscard]] int64_t rejoinCost(const Evidence& evidence, const Track& track,
+                                   const Newcomer& newcomer);
+  [[nodiscard]] std::optional<Point> recognise(const Evidence& evidence, const Track& track,
+                                               const Newcomer& newcomer);
   [[nodiscard]] int likeness(const Track& track, const Newcomer& newcomer) const;
-  void comeBack(Track& track, const Newcomer& newcomer) const;
+  void comeBack(const Evidence& evidence, Track& track, const Newcomer& newcomer);
   void meet();
   [[nodiscard]] Track* find(uint64_t id);
   void learnLook(size_t index);

@@ -202,14 +202,14 @@ void Tracker::rejoin(const Evidence& e) {
   for (size_t m = 0; m < missing.size(); ++m)
     for (size_t n = 0; n < newcomers_.size(); ++n)
       if (newcomers_[n].cells > 0)
-        costs_[m * newcomers_.size() + n] = rejoinCost(tracks_[missing[m]], newcomers_[n]);
+        costs_[m * newcomers_.size() + n] = rejoinCost(e, tracks_[missing[m]], newcomers_[n]);
   assignment_.solve(costs_, static_cast<int>(missing.size()), static_cast<int>(newcomers_.size()),
                     kLeaveOut);
   trackOfNewcomer_.assign(newcomers_.size(), -1);
   for (size_t m = 0; m < missing.size(); ++m) {
     const int n = assignment_.columnOf(static_cast<int>(m));
     if (n < 0) continue;
-    comeBack(tracks_[missing[m]], newcomers_[static_cast<size_t>(n)]);
+    comeBack(e, tracks_[missing[m]], newcomers_[static_cast<size_t>(n)]);
     trackOfNewcomer_[static_cast<size_t>(n)] = static_cast<int>(missing[m]);
   }
   for (size_t n = 0; n < newcomers_.size(); ++n) {
@@ -223,7 +223,7 @@ void Tracker::rejoin(const Evidence& e) {
 }
 
 /// 0 … 2000, or kForbidden: how unlikely it is that the newcomer is the track that is missing.
-int64_t Tracker::rejoinCost(const Track& track, const Newcomer& newcomer) const {
+int64_t Tracker::rejoinCost(const Evidence& e, const Track& track, const Newcomer& newcomer) {
   const int64_t x = (2 * int64_t{newcomer.box.x} + newcomer.box.width) * kUnit / 2;
   const int64_t foot = int64_t{newcomer.box.bottom()} * kUnit;
   const int64_t dx = x - track.x, dy = foot - track.foot;
@@ -232,9 +232,8 @@ int64_t Tracker::rejoinCost(const Track& track, const Newcomer& newcomer) const 
   const int64_t gate = std::max<int64_t>(
       1, track.size.height / 2 + track.size.height * (track.unseenNs / 1'000'000) * 3 / 2000);
   if (far > gate) return kForbidden;
-  // Parts of what has a portrait were found by that, or don't tell where it is.
   if (isFaithful(track) && 5 * int64_t{newcomer.box.width} * kUnit < 4 * track.size.width)
-    return kForbidden;
+    return recognise(e, track, newcomer) ? 1000 * int64_t{far} / gate : kForbidden;
   if (newcomer.isPart && isPartOf(newcomer, track)) return 1000 * int64_t{far} / gate;
   const int64_t height = int64_t{newcomer.box.height} * kUnit;
   if (!newcomer.isAtBorder && (2 * height < track.size.height || height > 2 * track.size.height))
@@ -259,13 +258,15 @@ int Tracker::likeness(const Track& track, const Newcomer& newcomer) const {
   return most;
 }
 
-void Tracker::comeBack(Track& track, const Newcomer& newcomer) const {
+void Tracker::comeBack(const Evidence& e, Track& track, const Newcomer& newcomer) {
   // What comes out from behind something shows a part first.
   const bool isPart =
       track.centreSamples > 0 && 5 * newcomer.box.width * kUnit < 4 * track.size.width;
-  const Place place = isPart ? placeOfPart(track, newcomer.box, frame_)
-                             : Place{(2 * int64_t{newcomer.box.x} + newcomer.box.width) * kUnit / 2,
-                                     int64_t{newcomer.box.bottom()} * kUnit};
+  Place place{(2 * int64_t{newcomer.box.x} + newcomer.box.width) * kUnit / 2,
+              int64_t{newcomer.box.bottom()} * kUnit};
+  if (isPart) place = placeOfPart(track, newcomer.box, frame_);
+  if (const auto recognised = recognise(e, track, newcomer); isPart && recognised)
+    place = {recognised->x, recognised->y};
   const int64_t x = place.x, foot = place.foot;
   const int64_t sinceUs = std::max<int64_t>(track.unseenNs / 1000, 1000);
   if (track.hits <= 2) {

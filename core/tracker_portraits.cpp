@@ -13,6 +13,7 @@ constexpr int kUnit = kPositionUnit;
 constexpr uint32_t kKnownPortrait = 4;  // Frames from which one can be looked for.
 constexpr uint32_t kFaithful = 160;     // Of 256: so much of a thing agrees that keeps its shape.
 constexpr uint32_t kLeastAgreeing = 8;  // Samples.
+constexpr size_t kMostSearched = 32;    // Bounds a crowd.
 constexpr int kFarFrom = 50;            // How little it matters where a hidden thing was expected.
 constexpr int64_t kReachNs = 100'000'000;
 
@@ -73,6 +74,7 @@ void Tracker::listPortraits(const Evidence& e) {
   for (size_t t = 0; t < tasks_.size(); ++t) {
     const size_t i = taskTrack_[t];
     if (!isFaithful(tracks_[i]) || isClear(i, e)) continue;
+    if (portraitTasks_.size() == kMostSearched) break;
     portraitTasks_.push_back({i, t, {}, {}});
     isSearched_[i + 1] = 1;
   }
@@ -125,14 +127,15 @@ PortraitMatch Tracker::findTrack(const PortraitScene& scene, size_t index, int64
   const int64_t since = std::min<int64_t>(stepNs + track.unseenNs, 10 * kReachNs);
   // A thing may turn round at once.
   const Point step = expectedShift(track, {}, stepNs);
-  const auto within = [&](int length, int shift) {
-    return std::max(6, static_cast<int>(length * (kReachNs + since) / (10 * kReachNs))) +
-           std::min(2 * std::abs(shift), length / 3);
+  const auto within = [&](int length, int shift, int frame) {
+    const auto away = static_cast<int>(length * (kReachNs + since) / (10 * kReachNs));
+    return std::max(6, std::min(away + std::min(2 * std::abs(shift), length / 3), frame / 8));
   };
   const int calm = static_cast<int>(1 + track.unseenNs / kReachNs);
-  return findPortrait(track.portrait, scene, cornerOf(track),
-                      {within(size.width, step.x), within(size.height / 2, step.y)}, calm,
-                      portraitScratch_);
+  return findPortrait(
+      track.portrait, scene, cornerOf(track),
+      {within(size.width, step.x, frame_.width), within(size.height / 2, step.y, frame_.height)},
+      calm, portraitScratch_);
 }
 
 /// Who is hidden by others is where they hide all of it: it may have stopped there.
@@ -173,6 +176,26 @@ void Tracker::giveMatch(const PortraitScene& scene, PortraitTask& task, int64_t 
   tasks_[task.fit].fitted = cellsOf(
       {task.corner.x, task.corner.y, track.portrait.sizePx.width, track.portrait.sizePx.height},
       scene.evidence.stepPx);
+}
+
+/// Where a track's lower edge has its middle, in 1/16 px, if a newcomer is its left or right part.
+std::optional<Point> Tracker::recognise(const Evidence& e, const Track& track,
+                                        const Newcomer& newcomer) {
+  if (!isFaithful(track) || !e.picture) return {};
+  const Size size = track.portrait.sizePx;
+  const PortraitScene scene{e, *e.picture, {}};
+  std::optional<Point> best;
+  uint32_t most = 0;
+  for (const int x : {newcomer.box.x, newcomer.box.right() - size.width}) {
+    const Point corner{x, newcomer.box.bottom() - size.height};
+    const PortraitMatch match =
+        findPortrait(track.portrait, scene, corner, {4, 4}, kFarFrom, portraitScratch_);
+    if (8 * match.agreeing < match.samples || 4 * match.agreeing < 3 * match.seen) continue;
+    if (match.agreeing <= most) continue;
+    most = match.agreeing;
+    best = placeOfMatch(track, corner, match);
+  }
+  return best;
 }
 
 void Tracker::learnPortrait(size_t index, const Evidence& e) {

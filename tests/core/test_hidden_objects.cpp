@@ -117,6 +117,37 @@ TEST(HiddenObjects, WhoMeetAndTurnBackKeepTheirNumbers) {
   }
 }
 
+TEST(HiddenObjects, TwoThatCameInAboveEachOtherArePartedOnceTheyMoveApart) {
+  BodyScene scene;
+  std::shared_ptr<const Objects> objects;
+  for (int i = 0; i < 70; ++i) {
+    const Body upper{{-40 + 4 * i, 80, 30, 22}, kRed}, lower{{-40 + 2 * i, 106, 34, 40}, kBlue};
+    objects = scene.show({upper, lower});
+    if (i < 60) continue;
+    for (const Box& box : {upper.box, lower.box})
+      EXPECT_EQ(std::count_if(objects->objects.begin(), objects->objects.end(),
+                              [&](const Object& object) {
+                                return isListed(object.state) &&
+                                       2 * intersect(object.box, box).area() >
+                                           unite(object.box, box).area();
+                              }),
+                1)
+          << i;
+  }
+}
+
+TEST(HiddenObjects, WhatIsCompleteTakesNoParts) {
+  BodyScene scene;
+  for (int i = 0; i < 60; ++i) {
+    const int x = -40 + 3 * i;
+    std::vector<Body> bodies = carAt(x, 100, kRed, kBlue);
+    // Comes in right below it, smaller than half of it, and as fast.
+    if (i >= 30) bodies.push_back({{x + 4, 135, 24, 12}, kGreen});
+    const auto objects = scene.show(bodies);
+    if (i >= 20) expectAt(*objects, 1, {x, 100}, "frame", i);
+  }
+}
+
 TEST(HiddenObjects, WhatLeavesSlowlyIsNoNewObject) {
   BodyScene scene;
   for (int x = 140; x < 282; x += 4) scene.show(carAt(x, 100, kRed, kBlue));
