@@ -93,7 +93,7 @@ void Tracker::giveBlobs(const Evidence& e) {
 }
 
 /// Two things above each other were taken for one when they came in: once one has moved against the
-/// other by half a width, it is given up. Parts of a body don't do that.
+/// other by a quarter of a width, it is given up. Parts of a body don't do that.
 void Tracker::partTracks(const Evidence& e) {
   findMajorities(tracks_.size(), majorities_, [&](auto&& count) {
     e.forForeground([&](size_t cell, int, int) {
@@ -118,7 +118,7 @@ void Tracker::partTracks(const Evidence& e) {
     const int way = 2 * part.box.x + part.box.width - 2 * main.box.x - main.box.width;
     const int offset = (part.box.y < main.box.y ? way : -way) * e.stepPx;
     if (track.partOffset == INT32_MIN) track.partOffset = offset;
-    if (std::abs(offset - track.partOffset) <= least * e.stepPx) continue;
+    if (2 * std::abs(offset - track.partOffset) <= least * e.stepPx) continue;
     e.forForeground([&](size_t cell, int, int) {
       if (owner_[cell] == t + 1 && blobScratch_.label[cell] == other.value) owner_[cell] = 0;
     });

@@ -121,7 +121,8 @@ TEST(HiddenObjects, TwoThatCameInAboveEachOtherArePartedOnceTheyMoveApart) {
   BodyScene scene;
   std::shared_ptr<const Objects> objects;
   for (int i = 0; i < 70; ++i) {
-    const Body upper{{-40 + 4 * i, 80, 30, 22}, kRed}, lower{{-40 + 2 * i, 106, 34, 40}, kBlue};
+    // The upper one shows a sliver while the lower one isn't all there yet.
+    const Body upper{{-46 + 3 * i, 84, 30, 36}, kRed}, lower{{-36 + 2 * i, 124, 36, 36}, kBlue};
     objects = scene.show({upper, lower});
     if (i < 60) continue;
     for (const Box& box : {upper.box, lower.box})
