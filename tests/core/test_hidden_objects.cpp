@@ -74,47 +74,38 @@ TEST(HiddenObjects, AFewPixelsTellWhereItComesOut) {
              x);
 }
 
-TEST(HiddenObjects, WhoIsBehindAnotherKeepsItsPlace) {
-  BodyScene scene;
-  std::pair<uint64_t, uint64_t> ids;
-  for (int i = 0; i < 75; ++i) {
-    const Point rear{-40 + 4 * i, 96}, front{280 - 4 * i, 104};
-    const auto objects =
-        scene.show(carAt(rear.x, rear.y, kRed, kBlue) + carAt(front.x, front.y, kGreen, kRed));
-    if (i == 20) ids = idsOf(*objects, rear);
-    if (i < 20) continue;
-    expectAt(*objects, ids.first, rear, "rear", i);
-    expectAt(*objects, ids.second, front, "front", i);
-  }
-}
+/// Two cars that come from either side, 4 px a frame, and turn back after `turn` frames.
+struct Meeting {
+  int frames, turn;
+  Point rear, front;  ///< Where they begin.
+  Colour frontTop, frontBottom;
+};
 
-TEST(HiddenObjects, TwinsThatCrossGoOnAsTheyDid) {
+void expectBothKept(const Meeting& m) {
   BodyScene scene;
   std::pair<uint64_t, uint64_t> ids;
-  for (int i = 0; i < 70; ++i) {
-    const Point rear{-40 + 4 * i, 100}, front{281 - 4 * i, 104};
-    const auto objects =
-        scene.show(carAt(rear.x, rear.y, kRed, kBlue) + carAt(front.x, front.y, kRed, kBlue));
-    if (i == 20) ids = idsOf(*objects, rear);
-    if (i < 20) continue;
-    expectAt(*objects, ids.first, rear, "rear", i);
-    expectAt(*objects, ids.second, front, "front", i);
-  }
-}
-
-TEST(HiddenObjects, WhoMeetAndTurnBackKeepTheirNumbers) {
-  BodyScene scene;
-  std::pair<uint64_t, uint64_t> ids;
-  for (int i = 0; i < 70; ++i) {
-    const int way = i < 34 ? i : 68 - i;
-    const Point rear{-40 + 4 * way, 96}, front{260 - 4 * way, 104};
-    const auto objects =
-        scene.show(carAt(rear.x, rear.y, kRed, kBlue) + carAt(front.x, front.y, kGreen, kRed));
+  for (int i = 0; i < m.frames; ++i) {
+    const int way = 4 * (i < m.turn ? i : 2 * m.turn - i);
+    const Point rear{m.rear.x + way, m.rear.y}, front{m.front.x - way, m.front.y};
+    const auto objects = scene.show(carAt(rear.x, rear.y, kRed, kBlue) +
+                                    carAt(front.x, front.y, m.frontTop, m.frontBottom));
     if (i == 20) ids = idsOf(*objects, rear);
     if (i < 20 || rear.x < 4) continue;
     expectAt(*objects, ids.first, rear, "rear", i);
     expectAt(*objects, ids.second, front, "front", i);
   }
+}
+
+TEST(HiddenObjects, WhoIsBehindAnotherKeepsItsPlace) {
+  expectBothKept({75, 75, {-40, 96}, {280, 104}, kGreen, kRed});
+}
+
+TEST(HiddenObjects, TwinsThatCrossGoOnAsTheyDid) {
+  expectBothKept({70, 70, {-40, 100}, {281, 104}, kRed, kBlue});
+}
+
+TEST(HiddenObjects, WhoMeetAndTurnBackKeepTheirNumbers) {
+  expectBothKept({70, 34, {-40, 96}, {260, 104}, kGreen, kRed});
 }
 
 TEST(HiddenObjects, TwoThatCameInAboveEachOtherArePartedOnceTheyMoveApart) {
