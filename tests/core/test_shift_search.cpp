@@ -2,6 +2,7 @@
 // The pruned search against the exhaustive one, on every target of this machine.
 #include "core/pixel.hpp"
 #include "core/shift_search.hpp"
+#include "tests/core/fills.hpp"
 #include "tests/core/scenes.hpp"
 #include "tests/core/simd_targets.hpp"
 
@@ -71,24 +72,6 @@ void expectExhaustive(const Image<uint8_t>& before, const Image<uint8_t>& now,
   });
 }
 
-/// Fills that make differences largest, smallest, alternating, repeated or arbitrary.
-LevelAt fill(int kind) {
-  return [kind](int x, int y) {
-    switch (kind) {
-      case 0:
-        return 255;
-      case 1:
-        return 0;
-      case 2:
-        return (x + y) % 2 * 255;
-      case 3:
-        return x % 3 == 0 ? 254 : 1;
-      default:
-        return static_cast<int>(hashOf(x, y, 9) & 255);
-    }
-  };
-}
-
 TEST(ShiftSearch, FindsWhatTheExhaustiveOneFindsInAnyPicture) {
   struct Case {
     Size size;
@@ -96,9 +79,9 @@ TEST(ShiftSearch, FindsWhatTheExhaustiveOneFindsInAnyPicture) {
   };
   for (const Case& c : {Case{{4, 1}, {3, 4}}, Case{{21, 65}, {19, 20}}, Case{{47, 33}, {7, 8}},
                         Case{{257, 5}, {16, 17}}, Case{{12, 9}, {64, 65}}, Case{{13, 9}, {0, 1}}})
-    for (int kind = 0; kind < 5; ++kind) {
+    for (int kind = 0; kind < test::kFills; ++kind) {
       SCOPED_TRACE(std::to_string(c.size.width) + " wide, fill " + std::to_string(kind));
-      expectExhaustive(painted(c.size, fill((kind + 1) % 5)), painted(c.size, fill(kind)),
+      expectExhaustive(test::filled(c.size, (kind + 1) % test::kFills), test::filled(c.size, kind),
                        raggedParts(c.size), c.range);
     }
 }
