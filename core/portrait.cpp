@@ -95,6 +95,60 @@ Score judge(const Portrait& p, const Picture& picture, const Window& window, Poi
   return score;
 }
 
+/// The search for the best shift from the expected corner.
+struct Finder {
+  using Key = std::tuple<int64_t, int, int, int>;  ///< Cost, distance, row, column.
+
+  const Portrait& p;
+  const Picture& picture;
+  Window window;
+  const PortraitSearch& where;
+
+  [[nodiscard]] Score scoreAt(Point shift, int skip) const {
+    return judge(p, picture, window, {where.corner.x + shift.x, where.corner.y + shift.y}, skip);
+  }
+  [[nodiscard]] int64_t costOf(Point shift, uint32_t samples) const {
+    const int64_t width = std::max(1, p.sizePx.width + 3 * where.turn.x);
+    const int64_t height = std::max(1, p.sizePx.height + 3 * where.turn.y);
+    const int64_t far = shift.x * shift.x * height * height + shift.y * shift.y * width * width;
+    return 9 * kGain * int64_t{samples} * far / (width * width * height * height * where.calm);
+  }
+  [[nodiscard]] Key keyAt(Point shift, int skip) const {
+    const Score score = scoreAt(shift, skip);
+    return {costOf(shift, score.samples) - score.gain, shift.x * shift.x + shift.y * shift.y,
+            shift.y, shift.x};
+  }
+  /// Of the places up to `around` from `middle`.
+  [[nodiscard]] Point bestOf(Point middle, Point around, Point stride, int skip) const {
+    Key best{INT64_MAX, 0, 0, 0};
+    for (int dy = middle.y - around.y; dy <= middle.y + around.y; dy += stride.y)
+      for (int dx = middle.x - around.x; dx <= middle.x + around.x; dx += stride.x)
+        if (std::abs(dx) <= where.reach.x && std::abs(dy) <= where.reach.y)
+          best = std::min(best, keyAt({dx, dy}, skip));
+    return {std::get<3>(best), std::get<2>(best)};
+  }
+  /// From a place to better ones around it, with ever smaller strides.
+  [[nodiscard]] Point climb(Point place, Point stride, int skip) const {
+    while (stride.x > 1 || stride.y > 1) {
+      stride = {(stride.x + 1) / 2, (stride.y + 1) / 2};
+      place = bestOf(place, {2 * stride.x, 2 * stride.y}, stride, skip);
+    }
+    return bestOf(place, {1, 1}, {1, 1}, 1);
+  }
+  [[nodiscard]] Point find() const {
+    const int skip = p.grid.area() > kFewSamples ? 2 : 1;
+    const Point reach = where.reach;
+    const Point stride{(reach.x + kCoarse - 1) / kCoarse, (reach.y + kCoarse - 1) / kCoarse};
+    const Point from =
+        bestOf({}, {reach.x / stride.x * stride.x, reach.y / stride.y * stride.y}, stride, skip);
+    const Point best = climb(from, stride, skip);
+    if (from == Point{}) return best;
+    // A sliver that comes out from behind something lies between the coarse places.
+    const Point near = climb({}, stride, skip);
+    return keyAt(near, 1) < keyAt(best, 1) ? near : best;
+  }
+};
+
 /// Where between a gain and its neighbours the top of a parabola is, in 1/16 px.
 int topBetween(int64_t before, int64_t at, int64_t after) {
   const int64_t bend = 2 * at - before - after;
@@ -185,47 +239,22 @@ void learn(Portrait& p, const PortraitScene& scene, Point corner, Size sizePx,
   findEdges(p);
 }
 
-PortraitMatch findPortrait(const Portrait& p, const PortraitScene& scene, Point corner, Point reach,
-                           int calm, PortraitScratch& s) {
+PortraitMatch findPortrait(const Portrait& p, const PortraitScene& scene,
+                           const PortraitSearch& where, PortraitScratch& s) {
   const int rim = 1 + scene.evidence.stepPx;
+  const Point corner = where.corner, reach = where.reach;
   const Box box{corner.x - reach.x - rim, corner.y - reach.y - rim,
                 p.grid.width * p.stepPx + 2 * (reach.x + rim),
                 p.grid.height * p.stepPx + 2 * (reach.y + rim)};
-  const Window window = look(scene, box, s.state);
-  const int64_t width = std::max(1, p.sizePx.width), height = std::max(1, p.sizePx.height);
-  const auto costOf = [&](int dx, int dy, uint32_t samples) {
-    const int64_t far = dx * dx * height * height + dy * dy * width * width;
-    return 9 * kGain * int64_t{samples} * far / (width * width * height * height * calm);
+  const Finder finder{p, scene.picture, look(scene, box, s.state), where};
+  const Point best = finder.find();
+  const Score score = finder.scoreAt(best, 1);
+  const auto gainAt = [&](int dx, int dy) {
+    return finder.scoreAt({best.x + dx, best.y + dy}, 1).gain;
   };
-  const auto scoreAt = [&](int dx, int dy, int skip) {
-    return judge(p, scene.picture, window, {corner.x + dx, corner.y + dy}, skip);
-  };
-  Point best;
-  const auto search = [&](Point middle, Point around, Point stride, int skip) {
-    std::tuple<int64_t, int, int, int> bestKey{INT64_MAX, 0, 0, 0};
-    for (int dy = middle.y - around.y; dy <= middle.y + around.y; dy += stride.y)
-      for (int dx = middle.x - around.x; dx <= middle.x + around.x; dx += stride.x) {
-        if (std::abs(dx) > reach.x || std::abs(dy) > reach.y) continue;
-        const Score score = scoreAt(dx, dy, skip);
-        const std::tuple key{costOf(dx, dy, score.samples) - score.gain, dx * dx + dy * dy, dy, dx};
-        if (key >= bestKey) continue;
-        bestKey = key;
-        best = {dx, dy};
-      }
-  };
-  const int skip = p.grid.area() > kFewSamples ? 2 : 1;
-  Point stride{(reach.x + kCoarse - 1) / kCoarse, (reach.y + kCoarse - 1) / kCoarse};
-  search({0, 0}, {reach.x / stride.x * stride.x, reach.y / stride.y * stride.y}, stride, skip);
-  while (stride.x > 1 || stride.y > 1) {
-    stride = {(stride.x + 1) / 2, (stride.y + 1) / 2};
-    search(best, {2 * stride.x, 2 * stride.y}, stride, skip);
-  }
-  search(best, {1, 1}, {1, 1}, 1);
-  const Score score = scoreAt(best.x, best.y, 1);
-  const auto gainAt = [&](int dx, int dy) { return scoreAt(best.x + dx, best.y + dy, 1).gain; };
   return {{best.x * 16 + topBetween(gainAt(-1, 0), score.gain, gainAt(1, 0)),
            best.y * 16 + topBetween(gainAt(0, -1), score.gain, gainAt(0, 1))},
-          score.gain - costOf(best.x, best.y, score.samples),
+          score.gain - finder.costOf(best, score.samples),
           score.samples,
           score.agreeing,
           score.seen,

@@ -65,6 +65,15 @@ struct PortraitMatch {
   [[nodiscard]] uint32_t share() const { return samples == 0 ? 0 : agreeing * 256 / samples; }
 };
 
+/// Where to look. Distance costs: a third of the size all that can be gained, with `turn` added to
+/// that third, so many pixels a thing may be off because it turned round; `calm` times less.
+struct PortraitSearch {
+  Point corner;  ///< Expected, in pixels.
+  Point reach;   ///< The most on either side, in pixels.
+  int calm = 1;
+  Point turn;
+};
+
 struct PortraitScratch {
   std::vector<uint8_t> state;  ///< Of the pixels of the search window.
 };
@@ -73,10 +82,8 @@ struct PortraitScratch {
 void learn(Portrait& portrait, const PortraitScene& scene, Point corner, Size sizePx,
            std::span<const uint16_t> owner, uint16_t own);
 
-/// The best place within `reach` px of `corner`. calm: how much distance costs; at 1 a third of the
-/// size costs all that can be gained, at more so many times less.
 [[nodiscard]] PortraitMatch findPortrait(const Portrait& portrait, const PortraitScene& scene,
-                                         Point corner, Point reach, int calm, PortraitScratch& s);
+                                         const PortraitSearch& where, PortraitScratch& s);
 
 /// Calls visit(cell, agrees) for the cells of the grid whose middle shows a solid sample of the
 /// portrait at `corner`, is foreground and isn't taken.

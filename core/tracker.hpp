@@ -47,6 +47,8 @@ struct Track {
   uint32_t ageFrames = 0;
   uint32_t hits = 0;                    ///< Frames in which it was seen.
   uint32_t sizeSamples = 0;             ///< Frames in which all of it was seen.
+  int32_t entryHeight = 0;              ///< Of what came in over a border at its side, in 1/16 px.
+  uint32_t entryFrames = 0;             ///< For how many frames that has stayed so.
   int32_t learntX = 0, learntFoot = 0;  ///< Where the scene's scale last learnt from it.
   int32_t centreX = 0, centreY = 0;     ///< From its box's middle to the mean of its pixels.
   uint32_t centreSamples = 0;           ///< Frames from which that was learnt.
@@ -203,6 +205,7 @@ class Tracker {
   void dropStrangers(const Evidence& evidence);
   void sight();
   [[nodiscard]] bool isSizeKnown(const Track& track) const;
+  void watchEntry(Track& track, const Sighting& sighting) const;
   [[nodiscard]] static bool isFaithful(const Track& track);
   [[nodiscard]] bool isRigid(const Track& track) const;
   void findNewcomers(const Evidence& evidence, const TrackerParams& params);

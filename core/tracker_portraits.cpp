@@ -127,15 +127,17 @@ PortraitMatch Tracker::findTrack(const PortraitScene& scene, size_t index, int64
   const int64_t since = std::min<int64_t>(stepNs + track.unseenNs, 10 * kReachNs);
   // A thing may turn round at once.
   const Point step = expectedShift(track, {}, stepNs);
-  const auto within = [&](int length, int shift, int frame) {
+  const Point turn{std::min(2 * std::abs(step.x), size.width / 3),
+                   std::min(2 * std::abs(step.y), size.height / 6)};
+  const auto within = [&](int length, int turned, int frame) {
     const auto away = static_cast<int>(length * (kReachNs + since) / (10 * kReachNs));
-    return std::max(6, std::min(away + std::min(2 * std::abs(shift), length / 3), frame / 8));
+    return std::max(6, std::min(away + turned, frame / 8));
   };
+  const Point reach{within(size.width, turn.x, frame_.width),
+                    within(size.height / 2, turn.y, frame_.height)};
   const int calm = static_cast<int>(1 + track.unseenNs / kReachNs);
-  return findPortrait(
-      track.portrait, scene, cornerOf(track),
-      {within(size.width, step.x, frame_.width), within(size.height / 2, step.y, frame_.height)},
-      calm, portraitScratch_);
+  return findPortrait(track.portrait, scene, {cornerOf(track), reach, calm, turn},
+                      portraitScratch_);
 }
 
 /// Who is hidden by others is where they hide all of it: it may have stopped there.
@@ -145,9 +147,9 @@ void Tracker::hide(const PortraitScene& scene, size_t index, int64_t stepNs) {
   const Point reach{1 + std::abs(step.x), 1 + std::abs(step.y)};
   Sighting& s = sightings_[index];
   s.isBehind = true;
-  s.matched =
-      placeOfMatch(track, corner,
-                   findPortrait(track.portrait, scene, corner, reach, kFarFrom, portraitScratch_));
+  s.matched = placeOfMatch(
+      track, corner,
+      findPortrait(track.portrait, scene, {corner, reach, kFarFrom, {}}, portraitScratch_));
 }
 
 /// What is found of a track is its own; where too little is, it is hidden.
@@ -155,8 +157,9 @@ void Tracker::giveMatch(const PortraitScene& scene, PortraitTask& task, int64_t 
   Track& track = tracks_[task.track];
   const PortraitMatch& match = task.match;
   Sighting& s = sightings_[task.track];
-  if (match.agreeing < kLeastAgreeing || 16 * match.agreeing < match.inside() ||
-      2 * match.agreeing < match.seen) {
+  // A sliver tells of what keeps its shape.
+  const uint32_t least = match.inside() / (isRigid(track) ? 32 : 16);
+  if (match.agreeing < std::max(kLeastAgreeing, least) || 2 * match.agreeing < match.seen) {
     s.task = -1;
     if (track.unseenNs == 0) track.isBehind = 2 * match.covered >= match.samples;
     if (track.isBehind && 4 * match.ground >= match.samples) hide(scene, task.track, stepNs);
@@ -189,7 +192,7 @@ std::optional<Point> Tracker::recognise(const Evidence& e, const Track& track,
   for (const int x : {newcomer.box.x, newcomer.box.right() - size.width}) {
     const Point corner{x, newcomer.box.bottom() - size.height};
     const PortraitMatch match =
-        findPortrait(track.portrait, scene, corner, {4, 4}, kFarFrom, portraitScratch_);
+        findPortrait(track.portrait, scene, {corner, {4, 4}, kFarFrom, {}}, portraitScratch_);
     if (8 * match.agreeing < match.samples || 4 * match.agreeing < 3 * match.seen) continue;
     if (match.agreeing <= most) continue;
     most = match.agreeing;

@@ -11,6 +11,7 @@ namespace {
 constexpr int kUnit = kPositionUnit;
 constexpr uint32_t kConfirmHits = 3;
 constexpr uint32_t kSteadySamples = 12;
+constexpr uint32_t kSettledFrames = 3;  // What comes in keeps a height for so long: it is its own.
 constexpr int64_t kFlickerNs = 250'000'000;    // A new track that is unseen for longer was nothing.
 constexpr int64_t kDoubleNs = 500'000'000;     // One body for so long, two tracks are one.
 constexpr int64_t kOtherSizeNs = 500'000'000;  // Of another size for so long, it has changed.
@@ -27,6 +28,18 @@ int32_t mix(int32_t old, int64_t fresh, int64_t oldWeight) {
 
 }  // namespace
 
+/// What comes in at the left or right shows its height before its width.
+void Tracker::watchEntry(Track& track, const Sighting& s) const {
+  const Box& box = s.box;
+  const bool isAtSide = box.x <= 0 || box.right() >= frame_.width;
+  const bool isAtEnd = box.y <= 0 || box.bottom() >= frame_.height;
+  if (!track.isSeen || !s.isSole || !isAtSide || isAtEnd) return;
+  const int32_t height = box.height * kUnit;
+  const bool hasStayed = 8 * std::abs(height - track.entryHeight) <= track.entryHeight;
+  track.entryFrames = hasStayed ? track.entryFrames + 1 : 0;
+  if (!hasStayed) track.entryHeight = height;
+}
+
 /// From a track that was seen whole: its own size and, every half height of its way, the scene's.
 void Tracker::learnSize(size_t index, int64_t stepNs, const Evidence& e) {
   Track& track = tracks_[index];
@@ -34,6 +47,7 @@ void Tracker::learnSize(size_t index, int64_t stepNs, const Evidence& e) {
   if (track.isSeen && s.isSole) track.apartNs += stepNs;
   if (track.isSeen) track.seenNs += stepNs;
   track.partedNs = s.isParted ? track.partedNs + stepNs : 0;
+  watchEntry(track, s);
   const Box frame = boundsOf(e.frame);
   const bool isCut = s.box.x <= frame.x || s.box.y <= frame.y || s.box.right() >= frame.right() ||
                      s.box.bottom() >= frame.bottom();
@@ -107,9 +121,11 @@ void Tracker::learnScale(const Evidence& e) {
 
 /// Whether a box is larger than a track of which the size is known from its own history.
 bool Tracker::outgrows(const Track& track, const Box& box) const {
-  if (scale_.isUniform() || !isSizeKnown(track)) return false;
-  return 4 * int64_t{box.width} * kUnit > 5 * int64_t{track.size.width} ||
-         4 * int64_t{box.height} * kUnit > 5 * int64_t{track.size.height};
+  if (scale_.isUniform()) return false;
+  const auto isBeyond = [](int px, int64_t size) { return 4 * int64_t{px} * kUnit > 5 * size; };
+  if (isSizeKnown(track))
+    return isBeyond(box.width, track.size.width) || isBeyond(box.height, track.size.height);
+  return track.entryFrames >= kSettledFrames && isBeyond(box.height, track.entryHeight);
 }
 
 /// Whether two tracks keep moving at other speeds: a third of a width per second.

@@ -74,6 +74,13 @@ TEST(HiddenObjects, AFewPixelsTellWhereItComesOut) {
              x);
 }
 
+TEST(HiddenObjects, ASliverOfWhatKeepsItsShapeIsEnough) {
+  BodyScene scene;
+  for (int x = -40; x < 176; x += 3) scene.show(behindPillar(carAt(x, 100, kRed, kBlue), 120, 214));
+  expectAt(*scene.show(behindPillar(carAt(176, 100, kRed, kBlue), 120, 214)), 1, {176, 100}, "at",
+           176);
+}
+
 /// Two cars that come from either side, 4 px a frame, and turn back after `turn` frames.
 struct Meeting {
   int frames, turn;
@@ -125,6 +132,24 @@ TEST(HiddenObjects, TwoThatCameInAboveEachOtherArePartedOnceTheyMoveApart) {
                               }),
                 1)
           << i;
+  }
+}
+
+TEST(HiddenObjects, WhoComesInBelowAnotherIsNoPartOfIt) {
+  BodyScene scene;
+  uint64_t id = 0;
+  for (int i = 0; i < 50; ++i) {
+    // As fast as the upper one, which shows all its height but not yet all its width.
+    const Body upper{{-40 + 3 * i, 84, 40, 36}, kRed}, lower{{-60 + 3 * i, 126, 40, 30}, kBlue};
+    const auto objects = scene.show({upper, lower});
+    if (upper.box.x < 2) continue;
+    for (const Object& object : objects->objects)
+      if (isListed(object.state) && object.box.y < 100 && id == 0) id = object.id;
+    const Object* found = find(*objects, id);
+    ASSERT_NE(found, nullptr) << i;
+    EXPECT_NEAR(found->box.y, 84, 2) << i;
+    EXPECT_NEAR(found->box.height, 36, 4) << i;
+    EXPECT_NEAR(found->box.x, upper.box.x, 4) << i;
   }
 }
 

@@ -77,7 +77,7 @@ Point placeOf(const PortraitMatch& match) {
 PortraitMatch find(const Portrait& portrait, const Stage& stage, Point corner,
                    Point reach = {10, 10}) {
   PortraitScratch scratch;
-  return findPortrait(portrait, stage.scene(), corner, reach, 1, scratch);
+  return findPortrait(portrait, stage.scene(), {corner, reach, 1, {}}, scratch);
 }
 
 TEST(Portrait, AWholeThingIsFoundWhereItIs) {
@@ -146,6 +146,37 @@ TEST(Portrait, NothingIsFoundOnTheGround) {
   EXPECT_EQ(match.shift, Point{});
 }
 
+TEST(Portrait, WhatTurnedRoundIsLookedForWhereItCameFrom) {
+  Stage stage({160, 90});
+  const Portrait portrait = learntAt(stage, {60, 30});
+  stage.paint(thingAt({52, 30}));
+  PortraitScratch scratch;
+  const auto placeWith = [&](Point turn) {
+    return placeOf(findPortrait(portrait, stage.scene(), {{60, 30}, {12, 6}, 1, turn}, scratch)).x;
+  };
+  EXPECT_GT(placeWith({}), -8);
+  EXPECT_EQ(placeWith({8, 0}), -8);
+}
+
+TEST(Portrait, ASliverBetweenTheCoarsePlacesIsFound) {
+  for (int width = 3; width < 6; ++width)
+    for (int off = -3; off <= 3; ++off) {
+      Stage stage({200, 90});
+      const Portrait portrait = learntAt(stage, {60, 30});
+      // Its outermost columns mix with the ground, and another thing covers the place beside it.
+      stage.paint([&](int x, int y) {
+        const int grey = thingAt({60 + off, 30})(x, y);
+        return x >= 60 + off + width ? (x >= 90 ? 250 : -1) : x == 60 + off ? grey / 2 : grey;
+      });
+      stage.take({90, 0, 110, 90});
+      PortraitScratch scratch;
+      const PortraitMatch match =
+          findPortrait(portrait, stage.scene(), {{60, 30}, {25, 15}, 13, {}}, scratch);
+      EXPECT_NEAR(placeOf(match).x, off, 1) << width;
+      EXPECT_GT(match.agreeing, 20u) << width << ' ' << off;
+    }
+}
+
 TEST(Portrait, DistanceCostsUnlessItWasUnseenForLong) {
   Stage stage({160, 90});
   const Portrait portrait = learntAt(stage, {40, 30});
@@ -154,8 +185,10 @@ TEST(Portrait, DistanceCostsUnlessItWasUnseenForLong) {
     return near >= 0 ? near - 5 : thingAt({64, 30})(x, y);
   });
   PortraitScratch scratch;
-  EXPECT_EQ(placeOf(findPortrait(portrait, stage.scene(), {40, 30}, {30, 4}, 1, scratch)).x, 1);
-  EXPECT_EQ(placeOf(findPortrait(portrait, stage.scene(), {40, 30}, {30, 4}, 50, scratch)).x, 24);
+  EXPECT_EQ(placeOf(findPortrait(portrait, stage.scene(), {{40, 30}, {30, 4}, 1, {}}, scratch)).x,
+            1);
+  EXPECT_EQ(placeOf(findPortrait(portrait, stage.scene(), {{40, 30}, {30, 4}, 50, {}}, scratch)).x,
+            24);
 }
 
 TEST(Portrait, WhatItLosesFadesAndWhatItGainsIsLearnt) {

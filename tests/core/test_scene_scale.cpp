@@ -15,9 +15,9 @@ Extent extent(int widthPx, int heightPx) {
   return {widthPx * kPx, heightPx * kPx};
 }
 
-/// Samples come from ten things in turn.
+/// Samples come from twenty things in turn.
 uint64_t thing(int sample) {
-  return static_cast<uint64_t>((sample + 100) % 10);
+  return static_cast<uint64_t>((sample + 100) % 20);
 }
 
 TEST(SceneScale, SaysNothingBeforeItHasSeenEnough) {
@@ -88,7 +88,7 @@ TEST(SceneScale, ThingsOfTwoWidthsAreNotUniform) {
   SceneScale scale;
   scale.reset({640, 480});
   for (int i = 0; i < 60; ++i)
-    scale.learn(static_cast<uint64_t>(i % 12), 200, {(i % 3 == 0 ? 55 : 30) * 16, 60 * 16});
+    scale.learn(static_cast<uint64_t>(i % 24), 200, {(i % 3 == 0 ? 55 : 30) * 16, 60 * 16});
   EXPECT_TRUE(scale.isKnown());
   EXPECT_FALSE(scale.isUniform());
 }
@@ -99,6 +99,17 @@ TEST(SceneScale, OneThingAloneSaysNothingOfOthers) {
   for (int i = 0; i < 40; ++i) scale.learn(7, 300, extent(30, 80));
   EXPECT_TRUE(scale.isKnown());
   EXPECT_FALSE(scale.isUniform());
+}
+
+TEST(SceneScale, AFewThingsThatAreAlikeMayBeSoByChance) {
+  SceneScale scale;
+  scale.reset(kFrame);
+  for (int i = 0; i < 39; ++i)
+    scale.learn(static_cast<uint64_t>(i % 13), 300 + i % 3, extent(30, 80));
+  EXPECT_TRUE(scale.isKnown());
+  EXPECT_FALSE(scale.isUniform());
+  scale.learn(13, 300, extent(30, 80));
+  EXPECT_TRUE(scale.isUniform());
 }
 
 TEST(SceneScale, AnUnknownWidthLeavesTheWidthAlone) {
