@@ -2,9 +2,11 @@
 #include "core/evidence.hpp"
 
 #include "core/appearance.hpp"
+#include "core/motion_layers.hpp"
 #include "core/simd/run_rows.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 
 namespace rg {
 namespace {
@@ -52,11 +54,12 @@ void findBins(const Picture& picture, const RegionRun& cells, Evidence& e) {
   }
 }
 
-// Sixteenths of a pixel per frame by which two things differ of which one is at most kAlikeShare
-// times as large as the other. The less there is of a group, the more its motion is off.
-constexpr int64_t kLeastApart = 6;
-constexpr int64_t kAlikeShare = 3;
-constexpr int64_t kMostCells = 1 << 16;
+constexpr int64_t kLeastApart = 6;  // 1/16 px per frame by which two things differ.
+constexpr int kMostOfStanding = 8;  // The same, by which something may be off that stands.
+
+bool isTrusted(const Evidence& e, uint16_t group) {
+  return !e.trustOf.empty() && e.trustOf[group - 1u] >= kLeastTrust;
+}
 
 }  // namespace
 
@@ -88,16 +91,20 @@ void gather(const Graph& graph, std::span<const uint32_t> groupOf,
 }
 
 bool areApart(const Evidence& e, uint16_t a, uint16_t b) {
-  if (!e.showsMovers || a == b || a == 0 || b == 0) return false;
-  const uint32_t p = e.cellsOf[a - 1u], q = e.cellsOf[b - 1u];
-  if (e.motionOf.empty()) return false;
-  const Point v = e.motionOf[a - 1u], w = e.motionOf[b - 1u];
-  const int64_t dx = v.x - w.x, dy = v.y - w.y;
-  const int64_t smaller = std::min<int64_t>(std::min(p, q), kMostCells);
-  const int64_t larger = std::min<int64_t>(std::max(p, q), kMostCells);
-  const int64_t least = kLeastApart * std::max(larger, kAlikeShare * smaller);
-  const int64_t share = kAlikeShare * smaller;
-  return (dx * dx + dy * dy) * share * share >= least * least;
+  if (a == b || a == 0 || b == 0 || e.motionOf.empty()) return false;
+  if (!e.showsMovers && !(isTrusted(e, a) && isTrusted(e, b))) return false;
+  const auto moverOf = [&](uint16_t group) {
+    const Point v = e.motionOf[group - 1u];
+    const int64_t cells = e.cellsOf[group - 1u];
+    return Mover{v.x, v.y, e.showsMovers ? cells : cells * e.trustOf[group - 1u]};
+  };
+  return moveApart(moverOf(a), moverOf(b), e.showsMovers ? kLeastApart : kLeastDrift);
+}
+
+bool isKnownToStand(const Evidence& e, uint16_t group) {
+  if (group == 0 || !isTrusted(e, group)) return false;
+  const Point v = e.motionOf[group - 1u];
+  return std::abs(v.x) + std::abs(v.y) < kMostOfStanding;
 }
 
 void Evidence::listRuns() {

@@ -28,6 +28,8 @@ struct Evidence {
                                    ///< be, 0 = none; where group is not 0.
   std::vector<uint32_t> cellsOf;   ///< Cells of each group.
   std::vector<Point> motionOf;     ///< Motion of each group, in 1/16 px; may be empty.
+  std::vector<uint16_t> trustOf;   ///< How reliable that is, in 1/256; empty where groups are
+                                   ///< things (showsMovers).
   std::vector<RegionRun> runs;  ///< Of the cells that are no background, of one group each. Row by
                                 ///< row: what walks them costs nothing where nothing is.
   std::vector<uint16_t> runBegins;  ///< Scratch.
@@ -77,8 +79,11 @@ void gather(const Graph& graph, std::span<const uint32_t> groupOf,
             std::span<const uint8_t> isBackground, std::span<const uint32_t> expectedOf,
             Evidence& evidence);
 
-/// Whether two groups are two things: where movers are shown and they move differently, the more so
-/// the smaller one is against the other.
+/// Whether two groups are two things because they move differently, the more so the smaller one is
+/// against the other.
 [[nodiscard]] bool areApart(const Evidence& evidence, uint16_t a, uint16_t b);
+
+/// Whether a group is known to stand still, as what somebody uncovered does who was there first.
+[[nodiscard]] bool isKnownToStand(const Evidence& evidence, uint16_t group);
 
 }  // namespace rg

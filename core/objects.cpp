@@ -3,6 +3,8 @@
 
 #include "core/contour.hpp"
 #include "core/ground_merge.hpp"
+#include "core/motion_layers.hpp"
+#include "core/motion_trends.hpp"
 #include "core/mrf_merge.hpp"
 #include "core/object_pixels.hpp"
 #include "core/own_motion.hpp"
@@ -55,6 +57,7 @@ class CpuObjectStage final : public ObjectStage {
                    std::vector<GroundEnergy>& energies) const;
   void markSurroundings(const Graph& graph, const Objects& objects);
   void markBackground(const Graph& graph, const Objects& objects);
+  void gatherEvidence(const Graph& graph, const Objects& objects);
   void givePixels(const Graph& graph, Objects& objects);
   void describe(const Graph& graph, bool hasTime, Objects& objects);
   void nameRegions(const Graph& graph, Objects& objects);
@@ -80,6 +83,9 @@ class CpuObjectStage final : public ObjectStage {
   std::vector<uint8_t> isBackgroundRegion_;
   std::vector<ObjectSums> sums_;
   ObjectPixelScratch pixelScratch_;
+  MotionTrends trends_;
+  Motion trend_;  ///< What they say of this frame's regions; where the camera stands.
+  LayerScratch layerScratch_;
   Pool<Objects> pool_;
   FrameTime last_;
   bool hasLast_ = false;
@@ -100,6 +106,7 @@ void CpuObjectStage::reset(Reset what) {
   if (what == Reset::Gap) return;  // The next frame's time tells how far to predict.
   tracker_.reset(what == Reset::Stream);
   previous_.reset();
+  trends_.reset();
   hasLast_ = false;
 }
 
@@ -137,7 +144,10 @@ void CpuObjectStage::mergeRegions(const Motion& motion, const ObjectParams& para
   objects.cameraDx = camera.dx;
   objects.cameraDy = camera.dy;
   expectLabels(graph, stepNs, objects);
-  weighArcs(motion, expected_, weights, objects.arcs);
+  const bool isStill = graph.labels->scope != Scope::Frame;
+  if (isStill) followTrends(motion, trends_, trend_);
+  const Motion& shown = isStill ? trend_ : motion;
+  weighArcs(shown, expected_, weights, objects.arcs);
   startGroups(groupOf);
   if (graph.labels->scope == Scope::Frame) {
     own_.assign(graph.regions.size(), {});
@@ -152,8 +162,9 @@ void CpuObjectStage::mergeRegions(const Motion& motion, const ObjectParams& para
   } else {
     listArcs(graph, objects.arcs, arcs_);
     minimise(static_cast<uint32_t>(graph.regions.size()), arcs_, mergeScratch_, groupOf);
+    partGroups(trend_, expected_, layerScratch_, groupOf);
   }
-  describeGroups(motion, groupOf, groups_);
+  describeGroups(shown, groupOf, groups_);
   markBackground(graph, objects);
 }
 
@@ -249,6 +260,18 @@ void CpuObjectStage::nameRegions(const Graph& graph, Objects& objects) {
     if (regionOwner_[r] != 0) objects.regionObject[r] = tracker_.tracks()[regionOwner_[r] - 1].id;
 }
 
+void CpuObjectStage::gatherEvidence(const Graph& graph, const Objects& objects) {
+  gather(graph, objects.regionGroup, isBackground_, expected_, evidence_);
+  evidence_.camera = {objects.cameraDx, objects.cameraDy};
+  evidence_.showsMovers = graph.labels->scope == Scope::Frame;
+  evidence_.motionOf.clear();
+  evidence_.trustOf.clear();
+  for (const Group& group : groups_) {
+    evidence_.motionOf.push_back({group.dx, group.dy});
+    if (!evidence_.showsMovers) evidence_.trustOf.push_back(group.reliability);
+  }
+}
+
 Result<std::shared_ptr<const Objects>> CpuObjectStage::process(std::shared_ptr<const Motion> motion,
                                                                const ObjectParams& params,
                                                                FrameTime time) {
@@ -281,12 +304,7 @@ Result<std::shared_ptr<const Objects>> CpuObjectStage::process(std::shared_ptr<c
     return std::shared_ptr<const Objects>(objects);
   }
   mergeRegions(*motion, params, stepNs, *objects);
-  gather(*graph, objects->regionGroup, isBackground_, expected_, evidence_);
-  evidence_.camera = {objects->cameraDx, objects->cameraDy};
-  evidence_.showsMovers = graph->labels->scope == Scope::Frame;
-  evidence_.motionOf.clear();
-  if (evidence_.showsMovers)
-    for (const Group& group : groups_) evidence_.motionOf.push_back({group.dx, group.dy});
+  gatherEvidence(*graph, *objects);
   tracker_.update(evidence_, groups_, stepNs, tracking);
   givePixels(*graph, *objects);
   describe(*graph, time.isKnown, *objects);

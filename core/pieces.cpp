@@ -93,7 +93,7 @@ void findPieces(const Evidence& e, std::span<const uint16_t> owner, PieceScratch
     fill(run, s.parent[i] + 1);
     piece.cells += static_cast<uint32_t>(width);
     piece.box = unite(piece.box, {run.begin, run.y, width, 1});
-    if (!e.showsMovers) continue;
+    if (e.motionOf.empty()) continue;
     const uint16_t group = e.group[e.at(run.begin, run.y)];
     if (piece.group == 0 || e.cellsOf[group - 1u] > e.cellsOf[piece.group - 1u])
       piece.group = group;

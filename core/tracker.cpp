@@ -166,7 +166,7 @@ void Tracker::update(const Evidence& evidence, std::span<const Group> groups, in
   countCells(evidence);
   dropStrangers(evidence);
   findNewcomers(evidence, params);
-  sight();
+  sight(evidence);
   meet();
   for (size_t i = 0; i < tracks_.size(); ++i) correct(i, stepNs);
   rejoin(evidence);
@@ -255,7 +255,7 @@ void Tracker::countCells(const Evidence& e) {
   }
 }
 
-void Tracker::sight() {
+void Tracker::sight(const Evidence& e) {
   for (size_t i = 0; i < tracks_.size(); ++i) {
     Sighting& s = sightings_[i];
     if (s.task < 0) continue;
@@ -265,6 +265,7 @@ void Tracker::sight() {
         isLike(s.box, track.size) ||
         (isSole && (!isSizeKnown(track) || isLike(s.box, scale_.at(s.box.bottom()))));
     s.isSole = isSole;
+    s.isStanding = blobOf_[i] != 0 && isKnownToStand(e, blobs_[blobOf_[i] - 1].group);
     // People's strides, of which a uniform scene is full, are no reason to distrust a box.
     s.isCutOff = isSole && !scale_.isUniform() && track.sizeSamples >= kTrustedSamples &&
                  isCutAtOneEnd(track, s.box, isRigid(track));
@@ -290,8 +291,7 @@ bool Tracker::isRigid(const Track& track) const {
 Place Tracker::placeOfWhole(Track& track, const Sighting& s) const {
   const int64_t left = int64_t{s.box.x} * kUnit, right = int64_t{s.box.right()} * kUnit;
   const int64_t top = int64_t{s.box.y} * kUnit, bottom = int64_t{s.box.bottom()} * kUnit;
-  const Extent size =
-      isSizeKnown(track) ? track.size : Extent{toInt(right - left), toInt(bottom - top)};
+  const Extent size = isSizeKnown(track) ? track.size : sizeOfPart(track, s.box);
   const bool isCut = s.box.x <= 0 || s.box.y <= 0 || s.box.right() >= frame_.width ||
                      s.box.bottom() >= frame_.height;
   Place place{(left + right) / 2, (top + bottom + size.height) / 2};
@@ -308,7 +308,6 @@ Place Tracker::placeOfWhole(Track& track, const Sighting& s) const {
     ++track.centreSamples;
     return {meanX - track.centreX, meanY - track.centreY + size.height / 2};
   }
-  if (!isSizeKnown(track)) return place;
   if (s.box.x <= 0 && s.box.right() < frame_.width) place.x = right - size.width / 2;
   if (s.box.x > 0 && s.box.right() >= frame_.width) place.x = left + size.width / 2;
   if (s.box.bottom() >= frame_.height) place.foot = top + size.height;
@@ -361,6 +360,7 @@ void Tracker::correct(size_t index, int64_t stepNs) {
   track.isSeen =
       s.isMatched || (s.task >= 0 && s.cells > 0 && supportOf(track, s) >= (wasSeen ? 77u : 128u));
   track.isWhole = track.isSeen && s.isWhole;
+  track.isStanding = track.isSeen && s.isStanding;
   if (!track.isSeen) {
     if (s.isBehind) {
       track.x = s.matched.x;

@@ -68,6 +68,7 @@ struct Track {
   int32_t partOffset = INT32_MIN;  ///< Between the middles of its blob and of another part above or
                                    ///< below, when they were first seen, in half pixels.
   bool isBehind = false;           ///< When it was last seen, other things were about to cover it.
+  bool isStanding = false;         ///< Its regions show that it doesn't move in this frame.
   bool isOver = false;
   bool hasMoved = false;
   bool isFromBorder = false;  ///< First seen where things come into the picture, or moving.
@@ -90,6 +91,7 @@ struct Sighting {
   uint32_t othersCells = 0;    ///< Of its fitted box that other tracks own.
   bool isParted = false;       ///< Other blobs beside its own seem to be parts of it.
   bool isCutOff = false;       ///< `box` lacks an end of what is expected there.
+  bool isStanding = false;     ///< Its regions show that it doesn't move.
   bool isSole = false;         ///< Nobody else is in its blob.
   bool isWhole = false;        ///< `box` shows all of it.
   bool isMatched = false;      ///< Its portrait was found.
@@ -203,7 +205,7 @@ class Tracker {
   void spreadOwners(const Evidence& evidence);
   void countCells(const Evidence& evidence);
   void dropStrangers(const Evidence& evidence);
-  void sight();
+  void sight(const Evidence& evidence);
   [[nodiscard]] bool isSizeKnown(const Track& track) const;
   void watchEntry(Track& track, const Sighting& sighting) const;
   [[nodiscard]] static bool isFaithful(const Track& track);
@@ -213,6 +215,7 @@ class Tracker {
   void giveFragments(const Evidence& evidence);
   void giveNewcomers(const Evidence& evidence);
   [[nodiscard]] bool isPartOf(const Newcomer& newcomer, const Track& track) const;
+  [[nodiscard]] bool comesApart(const Evidence& evidence, const Newcomer& newcomer) const;
   void dropSmall(const Evidence& evidence, const TrackerParams& params);
   void rejoin(const Evidence& evidence);
   [[nodiscard]] int64_t rejoinCost(const Evidence& evidence, const Track& track,
@@ -244,7 +247,8 @@ class Tracker {
   void findCompany(int64_t stepNs);
   void tellCompany();
   void tellNew(const Track& track);
-  [[nodiscard]] static int64_t movedBy(const Track& track);
+  [[nodiscard]] int64_t movedBy(const Track& track) const;
+  [[nodiscard]] Extent sizeOfPart(const Track& track, const Box& box) const;
   [[nodiscard]] bool isLeaving(const Track& track) const;
   void settleState(Track& track, int64_t stepNs) const;
   void settle(int64_t stepNs, const TrackerParams& params);

@@ -159,6 +159,14 @@ bool Tracker::isPartOf(const Newcomer& newcomer, const Track& track) const {
   return 10 * alike >= 7 * cells;
 }
 
+/// Whether a newcomer moves otherwise than the track that it comes out of.
+bool Tracker::comesApart(const Evidence& e, const Newcomer& newcomer) const {
+  for (size_t t = 0; t < sightings_.size(); ++t)
+    if (tracks_[t].id == newcomer.parent)
+      return blobOf_[t] != 0 && areApart(e, blobs_[blobOf_[t] - 1].group, newcomer.group);
+  return false;
+}
+
 /// Drops what is too small to be an object here; what sticks out of a track has to be a whole one.
 void Tracker::dropSmall(const Evidence& e, const TrackerParams& params) {
   const int64_t cellPx = int64_t{e.stepPx} * e.stepPx;
@@ -171,7 +179,7 @@ void Tracker::dropSmall(const Evidence& e, const TrackerParams& params) {
       const auto parent = std::find_if(tracks_.begin(), tracks_.end(),
                                        [&](const Track& t) { return t.id == n.parent; });
       if (parent != tracks_.end() &&
-          areaPx * (isSizeKnown(*parent) ? 8 : 2) * kUnit * kUnit * 256 <
+          areaPx * (isSizeKnown(*parent) || comesApart(e, n) ? 8 : 2) * kUnit * kUnit * 256 <
               int64_t{parent->size.width} * parent->size.height * parent->fill)
         return true;
       return areaPx * 3000 < e.frame.area();
@@ -180,7 +188,7 @@ void Tracker::dropSmall(const Evidence& e, const TrackerParams& params) {
     const int64_t usual = int64_t{expected.width} * expected.height / (kUnit * kUnit);
     const int64_t height = n.box.height * int64_t{kUnit}, width = n.box.width * int64_t{kUnit};
     if (n.isAtBorder && n.parent == 0) return 8 * areaPx < usual || 3 * height < expected.height;
-    if (n.parent != 0)
+    if (n.parent != 0 && !comesApart(e, n))
       return 3 * areaPx < usual || 5 * height < 3 * expected.height || 2 * width < expected.width;
     return 5 * areaPx < usual || 2 * height < expected.height || 5 * width < 2 * expected.width;
   };

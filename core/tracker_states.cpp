@@ -40,6 +40,17 @@ void Tracker::watchEntry(Track& track, const Sighting& s) const {
   if (!hasStayed) track.entryHeight = height;
 }
 
+/// How large a track of unknown size is of which `box` is seen: what the frame's border cuts off
+/// was seen before, if it is about to leave.
+Extent Tracker::sizeOfPart(const Track& track, const Box& box) const {
+  Extent size{box.width * kUnit, box.height * kUnit};
+  if (box.x <= 0 || box.right() >= frame_.width)
+    size.width = std::max(size.width, track.size.width);
+  if (box.y <= 0 || box.bottom() >= frame_.height)
+    size.height = std::max(size.height, track.size.height);
+  return size;
+}
+
 /// From a track that was seen whole: its own size and, every half height of its way, the scene's.
 void Tracker::learnSize(size_t index, int64_t stepNs, const Evidence& e) {
   Track& track = tracks_[index];
@@ -68,7 +79,7 @@ void Tracker::learnSize(size_t index, int64_t stepNs, const Evidence& e) {
   // Nothing says where it ends beside somebody else.
   const bool isShared = !scale_.isUniform() && !s.isSole;
   if (isCut || isShared || (isOther && !isSizeKnown(track))) {
-    if (!isSizeKnown(track)) track.size = {s.box.width * kUnit, s.box.height * kUnit};
+    if (!isSizeKnown(track)) track.size = sizeOfPart(track, s.box);
     return;
   }
   const int64_t known = std::min<int64_t>(track.sizeSamples, isRigid(track)       ? 24
@@ -218,14 +229,22 @@ bool Tracker::isCovered(const Track& track) const {
 }
 
 /// How far a track has come since it last left its place, in 1/16 px. Of what comes in at the
-/// border only the inner edges move.
-int64_t Tracker::movedBy(const Track& track) {
-  const int64_t dx = std::abs(track.x - track.stillX), dy = std::abs(track.foot - track.stillFoot);
+/// border only the inner edges move, and what only gets smaller there is leaving.
+int64_t Tracker::movedBy(const Track& track) const {
+  const int64_t dx = track.x - track.stillX, dy = track.foot - track.stillFoot;
   if (track.isConfirmed || !track.isFromBorder)
     return integerSqrt(static_cast<uint64_t>(dx * dx + dy * dy));
-  const int64_t wider = std::abs(track.size.width - track.stillSize.width) / 2;
-  const int64_t higher = std::abs(track.size.height - track.stillSize.height);
-  return std::max(dx + wider, dy + higher);
+  const Box box = track.box();
+  const int64_t wider = (track.size.width - track.stillSize.width) / 2;
+  const int64_t higher = track.size.height - track.stillSize.height;
+  const bool atLeft = box.x <= 0, atRight = box.right() >= frame_.width;
+  const bool atTop = box.y <= 0, atBottom = box.bottom() >= frame_.height;
+  const auto inwards = [](bool isAtLow, bool isAtHigh, int64_t low, int64_t high) {
+    if (isAtLow != isAtHigh) return isAtLow ? high : -low;
+    return isAtLow || (low < 0) != (high < 0) ? 0 : std::min(std::abs(low), std::abs(high));
+  };
+  return std::max(inwards(atLeft, atRight, dx - wider, dx + wider),
+                  inwards(atTop, atBottom, dy - higher, dy));
 }
 
 void Tracker::settleState(Track& track, int64_t stepNs) const {
@@ -234,8 +253,8 @@ void Tracker::settleState(Track& track, int64_t stepNs) const {
   const int64_t leave = track.size.height /
                         (track.isConfirmed || track.isFromBorder || !track.parents.empty() ? 6 : 3);
   track.stillNs += stepNs;
-  const bool hasLeft = movedBy(track) > leave;
-  if (hasLeft || (!track.isConfirmed && track.stillNs > kCreepNs)) {
+  const bool hasLeft = movedBy(track) > leave && (track.isConfirmed || !track.isStanding);
+  if (hasLeft || (!track.isConfirmed && (track.stillNs > kCreepNs || track.isStanding))) {
     track.stillNs = 0;
     track.stillX = track.x;
     track.stillFoot = track.foot;

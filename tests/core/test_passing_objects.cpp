@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Objects that touch from the first frame on, and what their motion says of them.
+#include "core/objects.hpp"
+#include "tests/core/body_scene.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace rg {
+namespace {
+
+constexpr Colour kRed{200, 30, 30}, kBlue{30, 40, 200}, kGrey{120, 120, 120};
+
+RegionMotion moving(int dx) {
+  return {dx * kMotionUnit, 0, 0, 60};
+}
+
+double overlap(const Box& a, const Box& b) {
+  const auto common = static_cast<double>(intersect(a, b).area());
+  return common / (static_cast<double>(a.area() + b.area()) - common);
+}
+
+std::vector<Box> toldOf(const Objects& objects) {
+  std::vector<Box> told;
+  for (const Object& object : objects.objects)
+    if (isListed(object.state)) told.push_back(object.box);
+  return told;
+}
+
+TEST(PassingObjects, TwoWhoTouchFromTheFirstFrameOnPartByTheirMotion) {
+  BodyScene scene;
+  std::vector<Box> told;
+  Box left, right;
+  for (int i = 0; i < 14; ++i) {
+    left = {140 - 3 * i, 60, 50, 90};
+    right = {100 + 3 * i, 70, 46, 96};
+    told = toldOf(*scene.show({{left, kRed}, {right, kBlue}}, {moving(-3), moving(3)}));
+  }
+  ASSERT_GT(left.right(), right.x);  // They still touch.
+  ASSERT_EQ(told.size(), 2u);
+  if (told[0].x > told[1].x) std::swap(told[0], told[1]);
+  EXPECT_GE(overlap(told[0], left), 0.5);
+  EXPECT_GE(overlap(told[1], right), 0.5);
+}
+
+TEST(PassingObjects, WhatAWalkerUncoversIsNotTold) {
+  BodyScene scene;
+  const Box first{40, 60, 50, 120};
+  for (int i = 0; i < 20; ++i) {
+    const Box walker{40 + 5 * i, 60, 50, 120};
+    const auto told = toldOf(*scene.show({{first, kGrey}, {walker, kRed}}, {moving(0), moving(5)}));
+    if (i < 12) continue;
+    ASSERT_EQ(told.size(), 1u) << i;
+    EXPECT_GE(overlap(told[0], walker), 0.6) << i;
+  }
+}
+
+TEST(PassingObjects, LegsThatStandDoNotPartABody) {
+  BodyScene scene;
+  for (int i = 0; i < 30; ++i) {
+    const int x = 40 + 5 * i, step = i / 5 * 25;  // A foot stands for five frames.
+    const auto told =
+        toldOf(*scene.show({{{x, 60, 40, 70}, kRed}, {{52 + step, 130, 20, 60}, kBlue}},
+                           {moving(5), moving(i % 5 == 0 ? 25 : 0)}));
+    EXPECT_LE(told.size(), 1u) << i;
+    if (i >= 15) {
+      ASSERT_EQ(told.size(), 1u);
+      EXPECT_GE(overlap(told[0], {x, 60, 40, 130}), 0.6) << i;
+    }
+  }
+}
+
+TEST(PassingObjects, WhatLeavesSoonAfterItWasFoundKeepsItsSize) {
+  BodyScene scene;
+  for (int i = 0; i < 10; ++i) {
+    const Box walker{255 + 5 * i, 60, 50, 60};
+    const auto told = toldOf(*scene.show({{walker, kRed}}, {moving(5)}));
+    if (i < 6) continue;
+    ASSERT_EQ(told.size(), 1u) << i;
+    EXPECT_GE(overlap(told[0], walker), 0.85) << i;
+  }
+}
+
+TEST(PassingObjects, WhatOnlyGetsSmallerAtTheBorderIsNotTold) {
+  BodyScene scene;
+  for (int i = 0; i < 30; ++i) {
+    const int left = 290 + i;  // Its height shrinks, too, as that of a leg that is drawn after.
+    const auto told =
+        toldOf(*scene.show({{{left, 60 + 3 * i, 60, 120 - 3 * i}, kRed}}, {moving(1)}));
+    EXPECT_TRUE(told.empty()) << i;
+  }
+}
+
+}  // namespace
+}  // namespace rg
