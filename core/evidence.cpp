@@ -101,6 +101,13 @@ bool areApart(const Evidence& e, uint16_t a, uint16_t b) {
   return moveApart(moverOf(a), moverOf(b), e.showsMovers ? kLeastApart : kLeastDrift);
 }
 
+bool areStrangersApart(const Evidence& e, uint16_t a, uint16_t b) {
+  const auto isKnown = [&](uint16_t group) {
+    return group != 0 && !e.isKnown.empty() && e.isKnown[group - 1u] != 0;
+  };
+  return !isKnown(a) && !isKnown(b) && areApart(e, a, b);
+}
+
 bool isKnownToStand(const Evidence& e, uint16_t group) {
   if (group == 0 || !isTrusted(e, group)) return false;
   const Point v = e.motionOf[group - 1u];

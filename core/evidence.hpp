@@ -30,6 +30,7 @@ struct Evidence {
   std::vector<Point> motionOf;     ///< Motion of each group, in 1/16 px; may be empty.
   std::vector<uint16_t> trustOf;   ///< How reliable that is, in 1/256; empty where groups are
                                    ///< things (showsMovers).
+  std::vector<uint8_t> isKnown;    ///< Of each group: an object of which the portrait is known.
   std::vector<RegionRun> runs;  ///< Of the cells that are no background, of one group each. Row by
                                 ///< row: what walks them costs nothing where nothing is.
   std::vector<uint16_t> runBegins;  ///< Scratch.
@@ -82,6 +83,9 @@ void gather(const Graph& graph, std::span<const uint32_t> groupOf,
 /// Whether two groups are two things because they move differently, the more so the smaller one is
 /// against the other.
 [[nodiscard]] bool areApart(const Evidence& evidence, uint16_t a, uint16_t b);
+
+/// The same where neither is known: what has a portrait is told from others by that.
+[[nodiscard]] bool areStrangersApart(const Evidence& evidence, uint16_t a, uint16_t b);
 
 /// Whether a group is known to stand still, as what somebody uncovered does who was there first.
 [[nodiscard]] bool isKnownToStand(const Evidence& evidence, uint16_t group);

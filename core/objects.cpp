@@ -58,6 +58,7 @@ class CpuObjectStage final : public ObjectStage {
   void markSurroundings(const Graph& graph, const Objects& objects);
   void markBackground(const Graph& graph, const Objects& objects);
   void gatherEvidence(const Graph& graph, const Objects& objects);
+  void markKnown(const Graph& graph, const Objects& objects);
   void givePixels(const Graph& graph, Objects& objects);
   void describe(const Graph& graph, bool hasTime, Objects& objects);
   void nameRegions(const Graph& graph, Objects& objects);
@@ -73,6 +74,7 @@ class CpuObjectStage final : public ObjectStage {
   std::vector<Point> shifts_;          ///< Of each track, pixels.
   RegionOwnerScratch ownerScratch_;
   std::vector<Group> groups_;
+  std::vector<uint32_t> mainPx_;  ///< Of each group: its largest region that is expected there.
   std::vector<uint8_t> isBackground_;
   std::vector<int32_t> majority_;  ///< Of each group: foreground samples less the others.
   std::shared_ptr<const Picture> previous_;
@@ -269,6 +271,21 @@ void CpuObjectStage::gatherEvidence(const Graph& graph, const Objects& objects) 
   for (const Group& group : groups_) {
     evidence_.motionOf.push_back({group.dx, group.dy});
     if (!evidence_.showsMovers) evidence_.trustOf.push_back(group.reliability);
+  }
+  markKnown(graph, objects);
+}
+
+/// Groups are known as what their largest region is expected to be.
+void CpuObjectStage::markKnown(const Graph& graph, const Objects& objects) {
+  std::vector<uint8_t>& isKnown = evidence_.isKnown;
+  isKnown.assign(groups_.size(), 0);
+  if (evidence_.showsMovers) return;
+  mainPx_.assign(groups_.size(), 0);
+  for (size_t r = 0; r < expected_.size(); ++r) {
+    const uint32_t group = objects.regionGroup[r], areaPx = graph.regions[r].areaPx;
+    if (expected_[r] == 0 || areaPx <= mainPx_[group]) continue;
+    mainPx_[group] = areaPx;
+    isKnown[group] = Tracker::isFaithful(tracker_.tracks()[expected_[r] - 1]);
   }
 }
 

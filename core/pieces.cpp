@@ -60,7 +60,7 @@ void joinRuns(const Evidence& e, const std::vector<RegionRun>& runs,
   parent.resize(runs.size());
   const auto tryJoin = [&](uint32_t a, uint32_t b) {
     const auto groupOf = [&](uint32_t i) { return e.group[e.at(runs[i].begin, runs[i].y)]; };
-    if (!areApart(e, groupOf(a), groupOf(b))) join(parent, a, b);
+    if (!areStrangersApart(e, groupOf(a), groupOf(b))) join(parent, a, b);
   };
   uint32_t above = 0;  // None before it reaches down to the present run.
   for (uint32_t i = 0; i < runs.size(); ++i) {

@@ -178,6 +178,8 @@ class Tracker {
   [[nodiscard]] const std::vector<Event>& events() const { return events_; }
   /// How far a track will move in the next `stepNs`, in pixels; camera: in 1/16 px meanwhile.
   [[nodiscard]] static Point expectedShift(const Track& track, Point camera, int64_t stepNs);
+  /// Whether its portrait tells where it is.
+  [[nodiscard]] static bool isFaithful(const Track& track);
   void remember(size_t index, Colour colour) { tracks_[index].colour = colour; }
   [[nodiscard]] const SceneScale& scale() const { return scale_; }
 
@@ -208,7 +210,6 @@ class Tracker {
   void sight(const Evidence& evidence);
   [[nodiscard]] bool isSizeKnown(const Track& track) const;
   void watchEntry(Track& track, const Sighting& sighting) const;
-  [[nodiscard]] static bool isFaithful(const Track& track);
   [[nodiscard]] bool isRigid(const Track& track) const;
   void findNewcomers(const Evidence& evidence, const TrackerParams& params);
   void describeNewcomers(const Evidence& evidence);

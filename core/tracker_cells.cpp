@@ -77,7 +77,7 @@ void Tracker::giveBlobs(const Evidence& e) {
     const uint32_t main = blobOf_[owner - 1u];
     if (main == blob) return;
     const Box &mine = blobs_[main - 1].box, &other = blobs_[blob - 1].box;
-    if (areApart(e, blobs_[main - 1].group, blobs_[blob - 1].group)) {
+    if (areStrangersApart(e, blobs_[main - 1].group, blobs_[blob - 1].group)) {
       owner_[cell] = 0;
       return;
     }

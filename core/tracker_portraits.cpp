@@ -39,7 +39,6 @@ Point placeOfMatch(const Track& track, Point corner, const PortraitMatch& match)
 
 }  // namespace
 
-/// Whether its portrait tells where it is.
 bool Tracker::isFaithful(const Track& track) {
   return track.portrait.frames >= kKnownPortrait && track.portrait.usual >= kFaithful;
 }

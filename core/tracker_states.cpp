@@ -234,7 +234,7 @@ int64_t Tracker::movedBy(const Track& track) const {
   const int64_t dx = track.x - track.stillX, dy = track.foot - track.stillFoot;
   if (track.isConfirmed || !track.isFromBorder)
     return integerSqrt(static_cast<uint64_t>(dx * dx + dy * dy));
-  const Box box = track.box();
+  const Box box = inflate(track.box(), 2 * stepPx_);
   const int64_t wider = (track.size.width - track.stillSize.width) / 2;
   const int64_t higher = track.size.height - track.stillSize.height;
   const bool atLeft = box.x <= 0, atRight = box.right() >= frame_.width;
@@ -243,8 +243,8 @@ int64_t Tracker::movedBy(const Track& track) const {
     if (isAtLow != isAtHigh) return isAtLow ? high : -low;
     return isAtLow || (low < 0) != (high < 0) ? 0 : std::min(std::abs(low), std::abs(high));
   };
-  return std::max(inwards(atLeft, atRight, dx - wider, dx + wider),
-                  inwards(atTop, atBottom, dy - higher, dy));
+  return inwards(atLeft, atRight, dx - wider, dx + wider) +
+         inwards(atTop, atBottom, dy - higher, dy);
 }
 
 void Tracker::settleState(Track& track, int64_t stepNs) const {
