@@ -34,12 +34,9 @@ int64_t agreement(Point a, Point b) {
 }
 
 int64_t kinship(const Arc& arc, const Colour& a, const Colour& b) {
-  const int64_t colour =
-      std::max({std::abs(a.red - b.red), std::abs(a.green - b.green), std::abs(a.blue - b.blue)});
-  const int64_t contrast = arc.contrast / arc.borderPx;
   constexpr int64_t kScale = 256;
-  return int64_t{arc.borderPx} * kScale * kContrast / (kContrast + contrast) * kColour /
-         (kColour + colour);
+  return int64_t{arc.borderPx} * kScale * kContrast / (kContrast + arc.meanContrast()) * kColour /
+         (kColour + difference(a, b));
 }
 
 /// weight / (weight + unit), of kOne.

@@ -19,6 +19,10 @@ constexpr int kMaxRestarts = 4;
 // A thing inside another has a border of four to five times the root of its area: what clearly
 // moves otherwise has to outweigh that.
 constexpr int kMostExcess = 6;
+// Mean step across a border, and difference of two colours, that halve what parting costs; in grey
+// levels.
+constexpr int64_t kContrast = 16;
+constexpr int64_t kColour = 30;
 
 void listNeighbours(uint32_t nodeCount, std::span<const WeightedArc> arcs, MergeScratch& s) {
   s.firstArc.assign(nodeCount + 2, 0);
@@ -128,10 +132,13 @@ void weighArcs(const Motion& motion, std::span<const uint32_t> predicted,
     const int64_t pull = std::min(v.reliability, u.reliability) * rootArea;
     const bool isPredicted =
         !predicted.empty() && predicted[s] != 0 && predicted[s] == predicted[t];
-    energies.push_back({.motion = weights.motion * (pull * excess / threshold2) / kFullReliability,
-                        .border = int64_t{weights.border} * arc.borderPx,
-                        .arc = weights.arc,
-                        .prediction = isPredicted ? weights.prediction * rootArea : 0});
+    energies.push_back(
+        {.motion = weights.motion * (pull * excess / threshold2) / kFullReliability,
+         .border =
+             int64_t{weights.border} * arc.borderPx * kContrast / (kContrast + arc.meanContrast()),
+         .arc = weights.arc * kColour /
+                (kColour + difference(graph.regions[s].colour, graph.regions[t].colour)),
+         .prediction = isPredicted ? weights.prediction * rootArea : 0});
   }
 }
 

@@ -4,9 +4,12 @@
 //
 // Up to a constant, U is minus the sum of the weights of the arcs that are kept, where an arc
 // between regions s and t with border L weighs
-//   w = border L + arc + min(√As, √At) (prediction [same object predicted] − motion r excess),
+//   w = border L 16 / (16 + contrast) + arc 30 / (30 + |colour s − colour t|)
+//       + min(√As, √At) (prediction [same object predicted] − motion r excess),
 //   excess = clamp(|vs − vt|² − T², 0, 6 T²) / T²,  r = the lesser reliability of the two.
-// Regions that show no reliable motion are thus joined by geometry alone.
+// Regions that show no reliable motion are thus joined by geometry alone. It is cheap to part them
+// where an edge is seen (U2: along the border, U3: between their colours as a whole), as the ends
+// of things mostly show one.
 //
 // Where the camera moves, the ground is one more node, with an arc to every region: that weighs by
 // how much better the camera's motion explains the region's pixels than another (U1,
@@ -30,8 +33,8 @@ namespace rg {
 /// Weights in 1/256; what they weigh is in pixels.
 struct MergeWeights {
   int32_t motion = 256;
-  int32_t border = 256;
-  int32_t arc = 256;
+  int32_t border = 512;
+  int32_t arc = 8192;
   int32_t prediction = 512;
   int32_t motionThreshold = kMotionUnit;  ///< T, in 1/16 px per frame, at least 1.
 };

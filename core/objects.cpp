@@ -155,8 +155,8 @@ void CpuObjectStage::mergeRegions(const Motion& motion, const ObjectParams& para
     own_.assign(graph.regions.size(), {});
     ownMotionScratch_.moves.assign(graph.regions.size(), 0);
     if (isMoving && previous && previous_ && previous->size() == previous_->size())
-      findOwnMotion(motion, previous->luma(), {camera, weights, expected_, shifts_}, *context_.cpu,
-                    ownMotionScratch_, own_);
+      findOwnMotion(motion, previous->luma(), {camera, objects.arcs, weights, expected_, shifts_},
+                    *context_.cpu, ownMotionScratch_, own_);
     tieToGround(graph, weights, objects.ground);
     objects.groundGroup =
         minimiseWithGround(graph, objects.arcs, {objects.ground, own_, ownMotionScratch_.moves},

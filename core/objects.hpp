@@ -105,8 +105,9 @@ struct Objects {
 /// times.
 struct ObjectParams {
   double motionWeight = 1.0;       ///< Of U1: what keeping regions together costs that move apart.
-  double borderWeight = 1.0;       ///< Of U2: what a pixel of border between two groups costs.
-  double arcWeight = 1.0;          ///< Of U3: what a broken arc costs.
+  double borderWeight = 2.0;       ///< Of U2: what a pixel of border between two groups costs where
+                                   ///< it shows no edge.
+  double arcWeight = 32.0;         ///< Of U3: what a broken arc between like colours costs.
   double predictionWeight = 2.0;   ///< What it costs to part regions that were expected to be one
                                    ///< object.
   double motionThresholdPx = 1.0;  ///< Speeds that differ by less per frame count as alike.

@@ -201,22 +201,22 @@ int64_t gainOf(const Sums& sums, int64_t deviations, uint64_t noise) {
          kGainUnit * deviations * integerSqrt(sums.pixels);
 }
 
-/// How long the border of each region is, with how much of it moving regions share, and which of
-/// those shares most.
-void lookAround(const Graph& graph, OwnMotionScratch& s) {
+/// What holds each region to what moves, and which of those has the longest border with it.
+void lookAround(const Graph& graph, std::span<const ArcEnergy> arcs, OwnMotionScratch& s) {
   s.around.assign(s.moves.size(), {});
-  const auto see = [&](uint32_t region, uint32_t other, uint32_t borderPx) {
+  const auto see = [&](uint32_t region, uint32_t other, uint32_t borderPx, int64_t hold) {
     OwnMotionScratch::Surroundings& around = s.around[region];
-    const int side = s.moves[other] != 0 ? 1 : -1;
-    around.border += side * static_cast<int32_t>(borderPx);
-    around.arcs += side;
-    if (side < 0 || borderPx <= around.longest) return;
+    const bool isMoving = s.moves[other] != 0;
+    around.hold += isMoving ? hold : -hold;
+    if (!isMoving || borderPx <= around.longest) return;
     around.longest = borderPx;
     around.neighbour = other + 1;
   };
-  for (const Arc& arc : graph.arcs) {
-    see(arc.a - 1u, arc.b - 1u, arc.borderPx);
-    see(arc.b - 1u, arc.a - 1u, arc.borderPx);
+  for (size_t i = 0; i < arcs.size(); ++i) {
+    const Arc& arc = graph.arcs[i];
+    const int64_t hold = arcs[i].border + arcs[i].arc;
+    see(arc.a - 1u, arc.b - 1u, arc.borderPx, hold);
+    see(arc.b - 1u, arc.a - 1u, arc.borderPx, hold);
   }
 }
 
@@ -226,18 +226,15 @@ uint32_t expectedAs(const OwnMotionRules& rules, size_t region) {
 
 /// Whether U is less when a region moves, with its neighbours as they were guessed.
 bool isMover(const Inputs& in, size_t region, const OwnMotion& own, const OwnMotionScratch& s) {
-  const MergeWeights& weights = in.rules.weights;
-  const OwnMotionScratch::Surroundings& around = s.around[region];
   const int64_t area = in.motion.graph->regions[region].areaPx;
   const GroundEnergy ground =
-      weighGround(own.gain, area, expectedAs(in.rules, region) != 0, weights);
-  return int64_t{weights.border} * around.border + int64_t{weights.arc} * around.arcs >
-         ground.weight();
+      weighGround(own.gain, area, expectedAs(in.rules, region) != 0, in.rules.weights);
+  return s.around[region].hold > ground.weight();
 }
 
 /// Takes over what was measured, and guesses again which of those regions move.
 void judge(const Inputs& in, int64_t deviations, OwnMotionScratch& s, std::vector<OwnMotion>& own) {
-  lookAround(*in.motion.graph, s);
+  lookAround(*in.motion.graph, in.rules.arcs, s);
   for (size_t i = 0; i < own.size(); ++i) {
     const OwnMotionScratch::Trial& trial = s.trials[i];
     if (trial.shift == Point{}) continue;
@@ -284,7 +281,7 @@ void findOwnMotion(const Motion& motion, ImageView<const uint8_t> previous,
     judge(in, kSearchGain, s, own);
   }
   for (int round = 0; round < kNeighbourRounds; ++round) {
-    lookAround(*motion.graph, s);
+    lookAround(*motion.graph, rules.arcs, s);
     s.trials.assign(count, {});
     for (size_t i = 0; i < count; ++i)
       if (s.moves[i] == 0 && s.around[i].neighbour != 0)

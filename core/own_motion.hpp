@@ -58,8 +58,7 @@ struct OwnMotionScratch {
   std::vector<uint8_t> moves;  ///< Of each region, the guess.
   std::vector<Trial> trials;
   struct Surroundings {
-    int32_t border = 0;      ///< With what moves less that with what does not, in pixels.
-    int32_t arcs = 0;        ///< The same of the number of arcs.
+    int64_t hold = 0;        ///< U2 and U3 of the arcs to what moves, less those to what does not.
     uint32_t longest = 0;    ///< Of the borders with what moves, in pixels.
     uint32_t neighbour = 0;  ///< 1 + region at that; 0 = none.
   };
@@ -69,6 +68,7 @@ struct OwnMotionScratch {
 
 struct OwnMotionRules {
   RegionMotion camera;
+  std::span<const ArcEnergy> arcs;  ///< Of the graph, as weighArcs() made them.
   MergeWeights weights;  ///< Vectors that differ from the camera's by no more than the threshold
                          ///< are the camera's.
   std::span<const uint32_t> expected;  ///< Of each region 1 + the object that it is expected to be,

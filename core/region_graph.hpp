@@ -5,11 +5,13 @@
 #pragma once
 
 #include "core/geometry.hpp"
+#include "core/pixel.hpp"
 #include "core/region_runs.hpp"
 #include "core/result.hpp"
 #include "core/segmentation.hpp"
 #include "core/stage.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -23,6 +25,11 @@ struct Colour {
   uint8_t blue = 0;
   friend constexpr bool operator==(const Colour&, const Colour&) = default;
 };
+
+/// Of the channel that differs most, in grey levels.
+[[nodiscard]] constexpr int difference(const Colour& a, const Colour& b) {
+  return std::max({absDiff(a.red, b.red), absDiff(a.green, b.green), absDiff(a.blue, b.blue)});
+}
 
 /// A node: regions[i] describes label i + 1.
 struct Region {
@@ -40,6 +47,11 @@ struct Arc {
   uint32_t borderPx = 0;  ///< Pairs of 4-neighbours across the border; with 8-connectivity also
                           ///< diagonal pairs.
   uint32_t contrast = 0;  ///< Sum over those pairs of the largest channel difference, grey levels.
+
+  /// Of a pair, grey levels.
+  [[nodiscard]] constexpr uint32_t meanContrast() const {
+    return borderPx == 0 ? 0 : contrast / borderPx;
+  }
 };
 
 enum class Connectivity : uint8_t { Four = 4, Eight = 8 };

@@ -45,11 +45,13 @@ constexpr std::array kProperties{
         0, 1000),
     property<Settings, &Settings::borderWeight>(
         "border-weight",
-        "Weight of U2: what each pixel of border between two groups costs. Higher keeps touching "
-        "regions together",
+        "Weight of U2: what each pixel of border between two groups costs where no edge is seen. "
+        "Higher keeps touching regions together",
         0, 1000),
     property<Settings, &Settings::arcWeight>(
-        "arc-weight", "Weight of U3: what each pair of touching regions in different groups costs",
+        "arc-weight",
+        "Weight of U3: what each pair of touching regions in different groups costs, the less the "
+        "more their colours differ",
         0, 1000),
     property<Settings, &Settings::predictionWeight>(
         "prediction-weight",

@@ -54,7 +54,7 @@ TEST(GroundMerge, WhatMovesIsPartedFromTheGround) {
 }
 
 TEST(GroundMerge, ItsBorderOutweighsWhatHardlyMoves) {
-  Row row({{}, gains(30), {}});
+  Row row({{}, gains(100), {}});
   EXPECT_THAT(row.groups(), ElementsAre(0, 0, 0));
   MergeWeights weights;
   weights.border = 0;
@@ -68,7 +68,7 @@ TEST(GroundMerge, APartThatSaysNothingGoesWithItsLongerBorder) {
 }
 
 TEST(GroundMerge, WhereNoObjectIsExpectedMoreHasToMove) {
-  Row row({{}, gains(60), {}});
+  Row row({{}, gains(160), {}});
   EXPECT_THAT(row.groups(), ElementsAre(0, 1, 0));
   row.isExpected = false;
   EXPECT_THAT(row.groups(), ElementsAre(0, 0, 0));

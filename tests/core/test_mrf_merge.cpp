@@ -60,6 +60,42 @@ TEST(MrfMerge, RegionsWithoutReliableMotionAreJoinedByGeometry) {
   EXPECT_THAT(Row({kStill, wild, kStill}).groups(), ElementsAre(0, 0, 0));
 }
 
+/// What the arc between two regions of a motion costs when it is broken.
+ArcEnergy energyOf(const Row& row) {
+  std::vector<ArcEnergy> energies;
+  weighArcs(row.motion, {}, {}, energies);
+  return energies.front();
+}
+
+TEST(MrfMerge, ABorderIsCheaperToBreakWhereAnEdgeIsSeen) {
+  const Row row({kStill, kStill}, 10);
+  const MergeWeights weights;
+  EXPECT_EQ(energyOf(row).border, 10 * weights.border);
+  row.graph->arcs[0].contrast = 10 * 16;
+  EXPECT_EQ(energyOf(row).border, 5 * weights.border);
+  row.graph->arcs[0].contrast = 10 * 240;
+  EXPECT_EQ(energyOf(row).border, 10 * weights.border / 16);
+}
+
+TEST(MrfMerge, AnArcIsCheaperToBreakBetweenUnlikeColours) {
+  const Row row({kStill, kStill}, 10);
+  const MergeWeights weights;
+  EXPECT_EQ(energyOf(row).arc, weights.arc);
+  row.graph->regions[0].colour = {10, 100, 50};
+  row.graph->regions[1].colour = {0, 130, 50};
+  EXPECT_EQ(energyOf(row).arc, weights.arc / 2);
+  EXPECT_EQ(energyOf(row).border, 10 * weights.border);
+}
+
+TEST(MrfMerge, AnEdgePartsWhatMovesALittleApart) {
+  const RegionMotion apart{32, 0, 0, kFullReliability};
+  const Row row({kStill, apart}, 10);
+  EXPECT_THAT(row.groups(), ElementsAre(0, 0));
+  row.graph->arcs[0].contrast = 10 * 64;
+  row.graph->regions[1].colour = {64, 64, 64};
+  EXPECT_THAT(row.groups(), ElementsAre(0, 1));
+}
+
 TEST(MrfMerge, SpeedsBelowTheThresholdAreAlike) {
   const RegionMotion slow{kMotionUnit, 0, 0, kFullReliability};
   EXPECT_THAT(Row({kStill, slow}, 0).groups(), ElementsAre(0, 0));
@@ -71,7 +107,7 @@ TEST(MrfMerge, ALongBorderOutweighsMotion) {
 }
 
 TEST(MrfMerge, PredictionHoldsTogetherWhatWasOneObject) {
-  const Row row({kStill, {10 * kMotionUnit, 0, 0, 80}}, 2);
+  const Row row({kStill, {10 * kMotionUnit, 0, 0, 200}}, 2);
   EXPECT_THAT(row.groups(), ElementsAre(0, 1));
   EXPECT_THAT(row.groups({7, 7}), ElementsAre(0, 0));
   EXPECT_THAT(row.groups({7, 8}), ElementsAre(0, 1));

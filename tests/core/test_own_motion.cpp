@@ -50,6 +50,12 @@ Motion motionOf(std::shared_ptr<const Labels> labels, const std::vector<Point>& 
   return motion;
 }
 
+std::vector<ArcEnergy> energiesOf(const Motion& motion) {
+  std::vector<ArcEnergy> energies;
+  weighArcs(motion, {}, {}, energies);
+  return energies;
+}
+
 constexpr RegionMotion kCameraMotion{kCamera.x * kMotionUnit, kCamera.y* kMotionUnit, 0, 256};
 
 std::vector<uint8_t> moversOf(const Picture& previous, std::shared_ptr<const Labels> labels,
@@ -59,8 +65,9 @@ std::vector<uint8_t> moversOf(const Picture& previous, std::shared_ptr<const Lab
   const Motion motion = motionOf(std::move(labels), vectors);
   OwnMotionScratch scratch;
   std::vector<OwnMotion> own;
-  findOwnMotion(motion, previous.luma(), {kCameraMotion, {}, expected, steps}, Executor(1), scratch,
-                own);
+  const std::vector<ArcEnergy> arcs = energiesOf(motion);
+  findOwnMotion(motion, previous.luma(), {kCameraMotion, arcs, {}, expected, steps}, Executor(1),
+                scratch, own);
   return scratch.moves;
 }
 
@@ -259,12 +266,14 @@ class Plainly {
                                 256 * (isSearched ? 4 : 1) *
                                     int64_t{integerSqrt(static_cast<uint64_t>(s.pixels))}};
       int64_t sides = 0;  // What moving gains at the borders, less what it costs.
-      for (const Arc& arc : motion_.graph->arcs)
+      for (size_t n = 0; n < energies_.size(); ++n) {
+        const Arc& arc = motion_.graph->arcs[n];
         if (arc.a == i + 1 || arc.b == i + 1)
           sides += (before[static_cast<size_t>(arc.a == i + 1 ? arc.b : arc.a) - 1] != 0 ? 1 : -1) *
-                   (int64_t{arc.borderPx} + 1);
+                   (energies_[n].border + energies_[n].arc);
+      }
       const int64_t unexpected = 512 * int64_t{integerSqrt(motion_.graph->regions[i].areaPx)};
-      moves_[i] = 256 * sides + own_[i].gain > unexpected;
+      moves_[i] = sides + own_[i].gain > unexpected;
     }
   }
 
@@ -289,6 +298,7 @@ class Plainly {
   ImageView<const uint8_t> now_;
   RegionMotion camera_;
   ImageView<const uint8_t> before_;
+  std::vector<ArcEnergy> energies_ = energiesOf(motion_);
   std::vector<OwnMotion> own_;
   std::vector<uint8_t> moves_;
   int64_t noise_ = 16;
@@ -331,11 +341,13 @@ TEST(OwnMotion, IsThatOfEachPixelOnEveryTargetAndNumberOfThreads) {
     const auto expected = Plainly(motion, *previous, camera).run();
     movers += static_cast<int>(std::count_if(expected.begin(), expected.end(),
                                              [](const OwnMotion& own) { return own.gain > 0; }));
+    const std::vector<ArcEnergy> arcs = energiesOf(motion);
     test::forEachTargetAndThreads([&](const std::shared_ptr<const Executor>& executor) {
       OwnMotionScratch scratch;
       std::vector<OwnMotion> own;
       for (int frame = 0; frame < 2; ++frame)
-        findOwnMotion(motion, previous->luma(), {camera, {}, {}, {}}, *executor, scratch, own);
+        findOwnMotion(motion, previous->luma(), {camera, arcs, {}, {}, {}}, *executor, scratch,
+                      own);
       EXPECT_EQ(own, expected);
     });
   }
