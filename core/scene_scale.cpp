@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kLineBits = 16;
 constexpr int kLeastSamples = 10;    // Of all bands together, before anything is said.
-constexpr size_t kLeastThings = 14;  // Before they are said to be alike.
+constexpr size_t kLeastThings = 8;   // Before they are said to be alike.
 constexpr size_t kLeastPerBand = 3;  // Before a band's median counts.
 
 /// The value below which half of the weight lies; the list is sorted by value here.

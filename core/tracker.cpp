@@ -255,15 +255,22 @@ void Tracker::countCells(const Evidence& e) {
   }
 }
 
+/// Whether the others in its blob were told by their portraits: what they leave is its own.
+bool Tracker::hasTheRest(size_t index) const {
+  for (size_t i = 0; i < sightings_.size(); ++i)
+    if (i != index && blobOf_[i] == blobOf_[index] && !sightings_[i].isMatched) return false;
+  return blobOf_[index] != 0;
+}
+
 void Tracker::sight(const Evidence& e) {
   for (size_t i = 0; i < tracks_.size(); ++i) {
     Sighting& s = sightings_[i];
     if (s.task < 0) continue;
     const Track& track = tracks_[i];
     const bool isSole = blobOf_[i] != 0 && soleTrack_[blobOf_[i]] == i + 1;
-    const bool isUsual =
-        isLike(s.box, track.size) ||
-        (isSole && (!isSizeKnown(track) || isLike(s.box, scale_.at(s.box.bottom()))));
+    const bool isUsual = isLike(s.box, track.size) ||
+                         (isSole && isLike(s.box, scale_.at(s.box.bottom()))) ||
+                         (!isSizeKnown(track) && (isSole || hasTheRest(i)));
     s.isSole = isSole;
     s.isStanding = blobOf_[i] != 0 && isKnownToStand(e, blobs_[blobOf_[i] - 1].group);
     // People's strides, of which a uniform scene is full, are no reason to distrust a box.
@@ -315,14 +322,6 @@ Place Tracker::placeOfWhole(Track& track, const Sighting& s) const {
   return place;
 }
 
-/// Whether another track is missing where this one is: they may share what is seen.
-bool Tracker::hidesAnother(const Track& track) const {
-  return std::any_of(tracks_.begin(), tracks_.end(), [&](const Track& other) {
-    return other.id != track.id && other.isConfirmed && other.unseenNs > 0 &&
-           !intersect(other.box(), track.box()).isEmpty();
-  });
-}
-
 /// Where a track is seen. Of what the scene hides in part the end that is nearest to where it was
 /// expected is taken to be its own, the other one to be cut off.
 Place Tracker::placeOf(size_t index) {
@@ -338,7 +337,7 @@ Place Tracker::placeOf(size_t index) {
 }
 
 /// Nobody sees it: it goes on as it did for a while, not as in the last moment.
-void Tracker::miss(Track& track, int64_t stepNs) const {
+void Tracker::miss(Track& track, const Sighting& s, int64_t stepNs) const {
   if (track.unseenNs == 0 && track.centreSamples >= kSteadySamples && !isCovered(track)) {
     const auto isNear = [](int32_t speed, int32_t steady, int32_t size) {
       return std::abs(speed - steady) <= std::max(std::abs(steady) / 2, size / 2);
@@ -349,6 +348,16 @@ void Tracker::miss(Track& track, int64_t stepNs) const {
       track.speedY = track.steadyY;
     }
   }
+  const auto shift = [&](int64_t dx, int64_t dy) {
+    track.x = toInt(track.x + dx);
+    track.foot = toInt(track.foot + dy);
+    track.heldX = toInt(track.heldX + dx);
+    track.heldFoot = toInt(track.heldFoot + dy);
+  };
+  if (s.isBehind)
+    shift(s.matched.x - track.x, s.matched.y - track.foot);
+  else if (track.unseenNs > kHeldNs)
+    shift(-track.heldX, -track.heldFoot);
   track.unseenNs += stepNs;
 }
 
@@ -361,13 +370,8 @@ void Tracker::correct(size_t index, int64_t stepNs) {
       s.isMatched || (s.task >= 0 && s.cells > 0 && supportOf(track, s) >= (wasSeen ? 77u : 128u));
   track.isWhole = track.isSeen && s.isWhole;
   track.isStanding = track.isSeen && s.isStanding;
-  if (!track.isSeen) {
-    if (s.isBehind) {
-      track.x = s.matched.x;
-      track.foot = s.matched.y;
-    }
-    return miss(track, stepNs);
-  }
+  if (!track.isSeen) return miss(track, s, stepNs);
+  track.heldX = track.heldFoot = 0;
   const Place place = placeOf(index);
   const int64_t sinceUs = std::max<int64_t>((track.unseenNs + stepNs) / 1000, 1000);
   const int64_t offX = place.x - track.x, offFoot = place.foot - track.foot;

@@ -67,8 +67,9 @@ struct Track {
   int64_t doubleNs = 0;            ///< Since it looks like a part of another track.
   int32_t partOffset = INT32_MIN;  ///< Between the middles of its blob and of another part above or
                                    ///< below, when they were first seen, in half pixels.
-  bool isBehind = false;           ///< When it was last seen, other things were about to cover it.
-  bool isStanding = false;         ///< Its regions show that it doesn't move in this frame.
+  int32_t heldX = 0, heldFoot = 0;  ///< From where it should be, if it stopped behind others.
+  bool isBehind = false;            ///< When it was last seen, other things were about to cover it.
+  bool isStanding = false;          ///< Its regions show that it doesn't move in this frame.
   bool isOver = false;
   bool hasMoved = false;
   bool isFromBorder = false;  ///< First seen where things come into the picture, or moving.
@@ -163,6 +164,9 @@ struct Majority {
   }
 };
 
+/// For so long something may have stopped behind others without being seen.
+inline constexpr int64_t kHeldNs = 200'000'000;
+
 class Tracker {
  public:
   /// Ends all tracks; the next update's events tell. Also forgets the scene's scale if isNewScene.
@@ -207,6 +211,7 @@ class Tracker {
   void spreadOwners(const Evidence& evidence);
   void countCells(const Evidence& evidence);
   void dropStrangers(const Evidence& evidence);
+  [[nodiscard]] bool hasTheRest(size_t index) const;
   void sight(const Evidence& evidence);
   [[nodiscard]] bool isSizeKnown(const Track& track) const;
   void watchEntry(Track& track, const Sighting& sighting) const;
@@ -234,7 +239,7 @@ class Tracker {
   [[nodiscard]] Place placeOf(size_t index);
   [[nodiscard]] bool hidesAnother(const Track& track) const;
   [[nodiscard]] Place placeOfWhole(Track& track, const Sighting& sighting) const;
-  void miss(Track& track, int64_t stepNs) const;
+  void miss(Track& track, const Sighting& sighting, int64_t stepNs) const;
   void learnSize(size_t index, int64_t stepNs, const Evidence& evidence);
   [[nodiscard]] uint64_t parentOf(const Newcomer& newcomer) const;
   void begin(const Newcomer& newcomer);

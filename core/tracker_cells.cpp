@@ -138,15 +138,17 @@ void Tracker::limitTracks(const Evidence& e) {
   }
 }
 
-/// Cells that nobody has, or somebody of unknown size, go to whom their region is predicted to be.
+/// Cells go to whom their region is predicted to be, unless a portrait told whose they are.
 void Tracker::reclaimExpected(const Evidence& e) {
   e.forParts(e.expected, [&](const RegionRun& part, uint16_t expected) {
     if (expected == 0) return;
     const Box& limits = limits_[expected - 1u];
     const Box cells = intersect({part.begin, part.y, part.end - part.begin, 1}, limits);
-    for (int x = cells.x; x < cells.right(); ++x)
-      if (blobScratch_.label[e.at(x, part.y)] == blobOf_[expected - 1u])
-        owner_[e.at(x, part.y)] = expected;
+    for (size_t cell = e.at(cells.x, part.y), end = cell + static_cast<size_t>(cells.width);
+         cell < end; ++cell) {
+      const bool isTold = owner_[cell] != 0 && sightings_[owner_[cell] - 1u].isMatched;
+      if (!isTold && blobScratch_.label[cell] == blobOf_[expected - 1u]) owner_[cell] = expected;
+    }
   });
 }
 

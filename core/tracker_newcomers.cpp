@@ -93,7 +93,7 @@ void Tracker::giveFragments(const Evidence& e) {
       const Box box = toPixels(blob.box, e.stepPx, e.frame);
       if (2 * newcomer.cells > blob.cells || !belongTogether(box, newcomer.box, scale_)) continue;
       if (areApart(e, blob.group, newcomer.group) || isComplete(t, e)) continue;
-      if (outgrows(tracks_[t], unite(box, newcomer.box))) continue;
+      if (!e.showsMovers && outgrows(tracks_[t], unite(box, newcomer.box))) continue;
       sightings_[t].box = unite(sightings_[t].box, newcomer.box);
       trackOfNewcomer_[n] = static_cast<int>(t);
       newcomer.cells = 0;

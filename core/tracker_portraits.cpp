@@ -139,9 +139,11 @@ PortraitMatch Tracker::findTrack(const PortraitScene& scene, size_t index, int64
                       portraitScratch_);
 }
 
-/// Who is hidden by others is where they hide all of it: it may have stopped there.
+/// Who is hidden by others is where they hide all of it: it may have stopped there. Unless it shows
+/// again soon, something else hides it where it went on to.
 void Tracker::hide(const PortraitScene& scene, size_t index, int64_t stepNs) {
   const Track& track = tracks_[index];
+  if (track.unseenNs > kHeldNs) return;
   const Point corner = cornerOf(track), step = expectedShift(track, {}, stepNs);
   const Point reach{1 + std::abs(step.x), 1 + std::abs(step.y)};
   Sighting& s = sightings_[index];

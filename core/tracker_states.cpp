@@ -228,6 +228,14 @@ bool Tracker::isCovered(const Track& track) const {
   return 5 * covered >= 2 * box.area();
 }
 
+/// Whether another track is missing where this one is: they may share what is seen.
+bool Tracker::hidesAnother(const Track& track) const {
+  return std::any_of(tracks_.begin(), tracks_.end(), [&](const Track& other) {
+    return other.id != track.id && other.isConfirmed && other.unseenNs > 0 &&
+           !intersect(other.box(), track.box()).isEmpty();
+  });
+}
+
 /// How far a track has come since it last left its place, in 1/16 px. Of what comes in at the
 /// border only the inner edges move, and what only gets smaller there is leaving.
 int64_t Tracker::movedBy(const Track& track) const {

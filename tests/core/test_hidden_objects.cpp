@@ -81,6 +81,39 @@ TEST(HiddenObjects, ASliverOfWhatKeepsItsShapeIsEnough) {
            176);
 }
 
+TEST(HiddenObjects, WhoIsCoveredAtThePillarComesOutBehindIt) {
+  BodyScene scene;
+  for (int i = 0; i < 85; ++i) {
+    // The other one, in front of both, covers most of it just before the pillar hides the rest.
+    const int x = -40 + 3 * i, other = 330 - 4 * i;
+    const auto objects = scene.show(behindPillar(carAt(x, 100, kRed, kBlue), 120, 190) +
+                                    carAt(other, 106, kGreen, kRed));
+    if (i < 20) continue;
+    const Object* object = find(*objects, 1);
+    // Where it went is not known at once.
+    if (object != nullptr && (x < 90 || x > 105)) {
+      EXPECT_NEAR(object->box.x, x, 20) << i;
+    }
+    if (x > 160) expectAt(*objects, 1, {x, 100}, "out", i);
+  }
+}
+
+TEST(HiddenObjects, WhoComesInBesideSomebodyKnownGetsTheRest) {
+  BodyScene scene;
+  for (int i = 0; i < 70; ++i) {
+    // It rises where the other one comes in, so that they touch until that is all there.
+    const std::vector<Body> known = carAt(262, 302 - 4 * i, kRed, kBlue);
+    const Body tall{{365 - 2 * i, 90, 60, 84}, kGreen};
+    const auto objects = scene.show(std::vector<Body>{tall} + known);
+    if (tall.box.right() > 314) continue;
+    const auto fits = [&](const Object& object) {
+      return isListed(object.state) &&
+             10 * intersect(object.box, tall.box).area() > 7 * unite(object.box, tall.box).area();
+    };
+    EXPECT_EQ(std::count_if(objects->objects.begin(), objects->objects.end(), fits), 1) << i;
+  }
+}
+
 /// Two cars that come from either side, 4 px a frame, and turn back after `turn` frames.
 struct Meeting {
   int frames, turn;

@@ -104,11 +104,11 @@ TEST(SceneScale, OneThingAloneSaysNothingOfOthers) {
 TEST(SceneScale, AFewThingsThatAreAlikeMayBeSoByChance) {
   SceneScale scale;
   scale.reset(kFrame);
-  for (int i = 0; i < 39; ++i)
-    scale.learn(static_cast<uint64_t>(i % 13), 300 + i % 3, extent(30, 80));
+  for (int i = 0; i < 21; ++i)
+    scale.learn(static_cast<uint64_t>(i % 7), 300 + i % 3, extent(30, 80));
   EXPECT_TRUE(scale.isKnown());
   EXPECT_FALSE(scale.isUniform());
-  scale.learn(13, 300, extent(30, 80));
+  scale.learn(7, 300, extent(30, 80));
   EXPECT_TRUE(scale.isUniform());
 }
 
