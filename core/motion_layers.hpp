@@ -29,7 +29,7 @@ struct Mover {
 [[nodiscard]] bool moveApart(const Mover& a, const Mover& b, int64_t least);
 
 inline constexpr int64_t kLeastDrift = 24;  ///< 1/16 px per frame by which trends differ of two.
-inline constexpr int kLeastTrust = 48;      ///< Of kFullReliability: less says nothing of a thing.
+inline constexpr int kLeastTrust = 60;      ///< Of kFullReliability: less says nothing of a thing.
 
 struct LayerScratch {
   struct Layer {

@@ -12,8 +12,8 @@ namespace {
 
 constexpr int kStep = 2;              // Every second pixel of every second row tells enough.
 constexpr int kMostFrames = 8;        // That a trend remembers.
-constexpr int64_t kAlike = 40;        // 1/16 px per frame by which a vector may be off its trend.
-constexpr int32_t kHalfReliable = 8;  // Reliability of a vector that counts half.
+constexpr int64_t kAlike = 28;        // 1/16 px per frame by which a vector may be off its trend.
+constexpr int32_t kHalfReliable = 6;  // Reliability of a vector that counts half.
 
 /// What the previous frame knew of the pixels that a region came from.
 MotionTrend trendBefore(std::span<const RegionRun> runs, const RegionMotion& now,

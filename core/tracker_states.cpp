@@ -274,7 +274,7 @@ void Tracker::settleState(Track& track, int64_t stepNs) const {
   if (track.isSeen)
     track.state = track.stillNs >= kStillNs ? ObjectState::Stopped : ObjectState::Tracked;
   // What was seen for a moment only is not believed to be there when it isn't seen.
-  else if (2 * track.unseenNs <= track.seenNs &&
+  else if (isSizeKnown(track) && 2 * track.unseenNs <= track.seenNs &&
            (track.unseenNs <= kMissNs || (track.state != ObjectState::Lost && isCovered(track))))
     track.state = ObjectState::Occluded;
   else

@@ -89,6 +89,18 @@ TEST(PassingObjects, WhatIsKnownByItsPortraitIsNotPartedByWrongVectors) {
   }
 }
 
+TEST(PassingObjects, WhatIsHiddenBeforeItsSizeIsKnownIsNotGuessedAt) {
+  for (const bool keepsItsSize : {true, false}) {
+    BodyScene scene;
+    for (int i = 0; i < 30; ++i) {
+      const int wider = keepsItsSize ? 0 : 20 * (i % 2);
+      const Box body{40 + 4 * i - wider, 60, 40 + 2 * wider, 90};
+      scene.show({{body, kRed}}, {moving(4)});
+    }
+    EXPECT_EQ(toldOf(*scene.show({})).size(), keepsItsSize ? 1u : 0u);
+  }
+}
+
 TEST(PassingObjects, WhatLeavesSoonAfterItWasFoundKeepsItsSize) {
   BodyScene scene;
   for (int i = 0; i < 10; ++i) {
