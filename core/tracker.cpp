@@ -276,6 +276,8 @@ void Tracker::sight(const Evidence& e) {
     // People's strides, of which a uniform scene is full, are no reason to distrust a box.
     s.isCutOff = isSole && !scale_.isUniform() && track.sizeSamples >= kTrustedSamples &&
                  isCutAtOneEnd(track, s.box, isRigid(track));
+    const bool isClosing = isSole && goesBehind(tracks_[i], s.box);
+    if (isClosing && isRigid(track)) s.isCutOff = true;
     const bool isAllThere =
         isSole && isAbout(s.box, track) && 16 * s.share >= 15u * track.portrait.usual;
     s.isWhole = (!s.isMatched || isAllThere) && !s.box.isEmpty() && isUsual && !s.isCutOff &&

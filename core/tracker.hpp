@@ -26,6 +26,11 @@
 
 namespace rg {
 
+/// An edge of a track's box that stays where it is, and where the opposite one was at first, in px.
+struct StandingEdge {
+  int place = -1000, opposite = -1000;
+};
+
 /// One object's history. Positions in 1/16 px, of the middle of the box's lower edge (the foot).
 struct Track {
   uint64_t id = 0;
@@ -54,10 +59,11 @@ struct Track {
   uint32_t centreSamples = 0;           ///< Frames from which that was learnt.
   int32_t steadyX = 0, steadyY = 0;     ///< Its speed over the last half second or so.
   bool isWhole = false;                 ///< All of it is seen in this frame.
-  uint16_t sway = 64;                   ///< By how much its box changes, in 1/256 of its size.
-  uint16_t fill = 150;                  ///< Share of its box that is foreground, in 1/256.
-  bool isSeen = false;                  ///< In this frame.
-  uint64_t company = 0;                 ///< Smallest id of those that it shares a blob with.
+  StandingEdge leftEdge, rightEdge;
+  uint16_t sway = 64;    ///< By how much its box changes, in 1/256 of its size.
+  uint16_t fill = 150;   ///< Share of its box that is foreground, in 1/256.
+  bool isSeen = false;   ///< In this frame.
+  uint64_t company = 0;  ///< Smallest id of those that it shares a blob with.
   uint64_t nextCompany = 0;
   int64_t companyNs = 0;           ///< Since nextCompany holds.
   int64_t apartNs = 0;             ///< For how long it was seen in a blob of its own.
@@ -212,6 +218,7 @@ class Tracker {
   void countCells(const Evidence& evidence);
   void dropStrangers(const Evidence& evidence);
   [[nodiscard]] bool hasTheRest(size_t index) const;
+  [[nodiscard]] static bool goesBehind(Track& track, const Box& box);
   void sight(const Evidence& evidence);
   [[nodiscard]] bool isSizeKnown(const Track& track) const;
   void watchEntry(Track& track, const Sighting& sighting) const;

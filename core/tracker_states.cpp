@@ -26,7 +26,20 @@ int32_t mix(int32_t old, int64_t fresh, int64_t oldWeight) {
   return static_cast<int32_t>(divideRounded(old * oldWeight + fresh, oldWeight + 1));
 }
 
+/// By how much the opposite edge has come nearer since this one stands.
+int closedIn(StandingEdge& edge, int place, int opposite) {
+  if (std::abs(place - edge.place) > 1) edge = {place, opposite};
+  return std::abs(place - edge.opposite) - std::abs(place - opposite);
+}
+
 }  // namespace
+
+/// Whether one end of what is seen stands while the other comes nearer: something stands before it.
+bool Tracker::goesBehind(Track& track, const Box& box) {
+  const int fromLeft = closedIn(track.rightEdge, box.right(), box.x);
+  const int fromRight = closedIn(track.leftEdge, box.x, box.right());
+  return std::max(fromLeft, fromRight) >= std::max(3, box.width / 32);
+}
 
 /// What comes in at the left or right shows its height before its width.
 void Tracker::watchEntry(Track& track, const Sighting& s) const {

@@ -81,6 +81,23 @@ TEST(HiddenObjects, ASliverOfWhatKeepsItsShapeIsEnough) {
            176);
 }
 
+TEST(HiddenObjects, WhatWasSeenWholeForAMomentIsNotTakenToShrink) {
+  BodyScene scene;
+  for (int i = 0; i < 105; ++i) {
+    const int x = -120 + 2 * i;
+    const std::vector<Body> lorry{
+        {{x, 100, 120, 20}, kRed}, {{x, 120, 60, 30}, kBlue}, {{x + 60, 120, 60, 30}, kGold}};
+    // It is seen whole for nine frames; then what is left of it shrinks so slowly that a size which
+    // follows it would never be off by much.
+    const auto objects = scene.show(behindPillar(lorry, 138, 320));
+    if (x < 20) continue;
+    const Object* object = find(*objects, 1);
+    ASSERT_NE(object, nullptr) << x;
+    EXPECT_NEAR(object->box.width, 120, 8) << x;
+    EXPECT_NEAR(object->box.x, x, 4) << x;
+  }
+}
+
 TEST(HiddenObjects, WhoIsCoveredAtThePillarComesOutBehindIt) {
   BodyScene scene;
   for (int i = 0; i < 85; ++i) {
