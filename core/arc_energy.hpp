@@ -23,7 +23,7 @@ struct ArcEnergy {
 struct GroundEnergy {
   int64_t motion = 0;      ///< U1: it moves otherwise; below 0 where the ground's motion explains
                            ///< it better.
-  int64_t prediction = 0;  ///< No object was expected there.
+  int64_t prediction = 0;  ///< No object was expected there; below 0 where one is known to stand.
 
   [[nodiscard]] constexpr int64_t weight() const { return prediction - motion; }
   friend constexpr bool operator==(const GroundEnergy&, const GroundEnergy&) = default;

@@ -10,11 +10,11 @@ constexpr uint32_t kNoGroup = UINT32_MAX;
 
 /// Returns the number of nodes.
 uint32_t listNodes(const GroundTies& ties, GroundScratch& s) {
-  const auto ground = static_cast<uint32_t>(std::count_if(
-      ties.own.begin(), ties.own.end(), [](const OwnMotion& own) { return own.isTried(); }));
+  const auto ground = static_cast<uint32_t>(ties.isOpen.size()) -
+                      static_cast<uint32_t>(std::count(ties.isOpen.begin(), ties.isOpen.end(), 0));
   s.nodeOf.clear();
   uint32_t count = 0;
-  for (const OwnMotion& own : ties.own) s.nodeOf.push_back(own.isTried() ? count++ : ground);
+  for (const uint8_t isOpen : ties.isOpen) s.nodeOf.push_back(isOpen != 0 ? count++ : ground);
   return ground + 1;
 }
 
@@ -27,8 +27,8 @@ void listArcs(const Graph& graph, std::span<const ArcEnergy> arcs, const GroundT
         std::minmax(s.nodeOf[graph.arcs[i].a - 1u], s.nodeOf[graph.arcs[i].b - 1u]);
     if (low != high) s.arcs.push_back({low, high, arcs[i].weight()});
   }
-  for (size_t r = 0; r < ties.own.size(); ++r)
-    if (ties.own[r].isTried()) s.arcs.push_back({s.nodeOf[r], ground, ties.energies[r].weight()});
+  for (size_t r = 0; r < ties.isOpen.size(); ++r)
+    if (ties.isOpen[r] != 0) s.arcs.push_back({s.nodeOf[r], ground, ties.energies[r].weight()});
 }
 
 }  // namespace
@@ -40,7 +40,7 @@ uint32_t minimiseWithGround(const Graph& graph, std::span<const ArcEnergy> arcs,
   const uint32_t startOfGround = *std::max_element(groupOf.begin(), groupOf.end()) + 1;
   s.groupOfNode.assign(nodes, startOfGround);
   for (size_t r = 0; r < groupOf.size(); ++r)
-    if (ties.own[r].isTried() && ties.moves[r] != 0) s.groupOfNode[s.nodeOf[r]] = groupOf[r];
+    if (ties.isOpen[r] != 0 && ties.moves[r] != 0) s.groupOfNode[s.nodeOf[r]] = groupOf[r];
   listArcs(graph, arcs, ties, ground, s);
   minimise(nodes, s.arcs, merging, s.groupOfNode);
   s.numberOf.assign(nodes, kNoGroup);

@@ -2,12 +2,11 @@
 // Merging regions with the ground as one more node of their graph, under a moving camera (part of
 // stage 5, core/mrf_merge.hpp).
 //
-// Regions that no other motion was tried on are the ground's from the start, so the cost follows
-// what moves. Determinism: as minimise(); groups count from 0 in the order of their first regions.
+// Most regions are surely the ground's from the start, so the cost follows what moves. Determinism:
+// as minimise(); groups count from 0 in the order of their first regions.
 #pragma once
 
 #include "core/mrf_merge.hpp"
-#include "core/own_motion.hpp"
 
 #include <cstdint>
 #include <span>
@@ -18,8 +17,8 @@ namespace rg {
 /// What is known of each region.
 struct GroundTies {
   std::span<const GroundEnergy> energies;
-  std::span<const OwnMotion> own;
-  std::span<const uint8_t> moves;  ///< A guess, where the search starts.
+  std::span<const uint8_t> isOpen;  ///< 0 = surely the ground.
+  std::span<const uint8_t> moves;   ///< A guess, where the search starts.
 };
 
 struct GroundScratch {

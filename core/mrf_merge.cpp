@@ -142,11 +142,12 @@ void weighArcs(const Motion& motion, std::span<const uint32_t> predicted,
   }
 }
 
-GroundEnergy weighGround(int64_t gain, int64_t areaPx, bool isExpected,
-                         const MergeWeights& weights) {
+GroundEnergy weighGround(int64_t gain, int64_t areaPx, bool isExpected, const MergeWeights& weights,
+                         int64_t stoppedPx) {
   const int64_t rootArea = integerSqrt(static_cast<uint64_t>(areaPx));
+  const int64_t unexpectedPx = isExpected ? 0 : rootArea;
   return {.motion = weights.motion * gain / kGainUnit,
-          .prediction = isExpected ? 0 : weights.prediction * rootArea};
+          .prediction = weights.prediction * (unexpectedPx - stoppedPx)};
 }
 
 void listArcs(const Graph& graph, std::span<const ArcEnergy> energies,

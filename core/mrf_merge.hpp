@@ -13,8 +13,9 @@
 //
 // Where the camera moves, the ground is one more node, with an arc to every region: that weighs by
 // how much better the camera's motion explains the region's pixels than another (U1,
-// core/own_motion.hpp), and by the prediction where no object is expected in the region. What ends
-// up in the ground's group is background. So the same sum decides what moves at all.
+// core/own_motion.hpp), and by the prediction: for the ground where no object is expected in the
+// region, against it where one is seen that has stopped (core/stopped_things.hpp). What ends up in
+// the ground's group is background. So the same sum decides what moves at all.
 //
 // Determinism: integers; every choice has a key (weight, then a hash of the two labels, then the
 // labels), so the result depends on the graph alone. Groups count from 0 in the order of their
@@ -111,9 +112,10 @@ void weighArcs(const Motion& motion, std::span<const uint32_t> predicted,
 inline constexpr int64_t kGainUnit = 256;
 
 /// The arc between a region and the ground. gain: how much better another motion than the camera's
-/// explains it, in 1/kGainUnit (OwnMotion).
+/// explains it, in 1/kGainUnit (OwnMotion). stoppedPx: of its pixels those that show a thing which
+/// is known to stand there.
 [[nodiscard]] GroundEnergy weighGround(int64_t gain, int64_t areaPx, bool isExpected,
-                                       const MergeWeights& weights);
+                                       const MergeWeights& weights, int64_t stoppedPx = 0);
 
 /// The arcs of the graph as minimise() takes them; `energies` as weighArcs() made them.
 void listArcs(const Graph& graph, std::span<const ArcEnergy> energies,

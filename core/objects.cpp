@@ -11,6 +11,7 @@
 #include "core/pixel.hpp"
 #include "core/pool.hpp"
 #include "core/region_owners.hpp"
+#include "core/stopped_things.hpp"
 #include "core/tracker.hpp"
 
 #include <algorithm>
@@ -53,8 +54,9 @@ class CpuObjectStage final : public ObjectStage {
                     Objects& objects);
   void expectLabels(const Graph& graph, int64_t stepNs, Objects& objects);
   void startGroups(std::vector<uint32_t>& groupOf) const;
+  void recallStopped(const Graph& graph, Objects& objects);
   void tieToGround(const Graph& graph, const MergeWeights& weights,
-                   std::vector<GroundEnergy>& energies) const;
+                   std::vector<GroundEnergy>& energies);
   void markSurroundings(const Graph& graph, const Objects& objects);
   void markBackground(const Graph& graph, const Objects& objects);
   void gatherEvidence(const Graph& graph, const Objects& objects);
@@ -80,6 +82,9 @@ class CpuObjectStage final : public ObjectStage {
   std::shared_ptr<const Picture> previous_;
   OwnMotionScratch ownMotionScratch_;
   std::vector<OwnMotion> own_;  ///< Of each region, under Scope::Frame.
+  StoppedScratch stoppedScratch_;
+  std::vector<StoppedThing> stopped_;  ///< Of each region, under Scope::Frame.
+  std::vector<uint8_t> isOpen_;        ///< Of each region: it may be something else than ground.
   GroundScratch groundScratch_;
   Evidence evidence_;
   std::vector<uint8_t> isBackgroundRegion_;
@@ -147,7 +152,10 @@ void CpuObjectStage::mergeRegions(const Motion& motion, const ObjectParams& para
   objects.cameraDy = camera.dy;
   expectLabels(graph, stepNs, objects);
   const bool isStill = graph.labels->scope != Scope::Frame;
-  if (isStill) followTrends(motion, trends_, trend_);
+  if (isStill)
+    followTrends(motion, trends_, trend_);
+  else
+    recallStopped(graph, objects);
   const Motion& shown = isStill ? trend_ : motion;
   weighArcs(shown, expected_, weights, objects.arcs);
   startGroups(groupOf);
@@ -159,7 +167,7 @@ void CpuObjectStage::mergeRegions(const Motion& motion, const ObjectParams& para
                     *context_.cpu, ownMotionScratch_, own_);
     tieToGround(graph, weights, objects.ground);
     objects.groundGroup =
-        minimiseWithGround(graph, objects.arcs, {objects.ground, own_, ownMotionScratch_.moves},
+        minimiseWithGround(graph, objects.arcs, {objects.ground, isOpen_, ownMotionScratch_.moves},
                            groundScratch_, mergeScratch_, groupOf);
   } else {
     listArcs(graph, objects.arcs, arcs_);
@@ -171,11 +179,30 @@ void CpuObjectStage::mergeRegions(const Motion& motion, const ObjectParams& para
 }
 
 void CpuObjectStage::tieToGround(const Graph& graph, const MergeWeights& weights,
-                                 std::vector<GroundEnergy>& energies) const {
+                                 std::vector<GroundEnergy>& energies) {
   energies.clear();
-  for (size_t r = 0; r < own_.size(); ++r)
+  isOpen_.clear();
+  for (size_t r = 0; r < own_.size(); ++r) {
+    const bool isStopped = stopped_[r].track != 0;
+    // That it moves as the ground does says nothing against what has stopped.
+    const int64_t gain = isStopped ? std::max<int64_t>(0, own_[r].gain) : own_[r].gain;
     energies.push_back(
-        weighGround(own_[r].gain, graph.regions[r].areaPx, expected_[r] != 0, weights));
+        weighGround(gain, graph.regions[r].areaPx, expected_[r] != 0, weights, stopped_[r].areaPx));
+    isOpen_.push_back(own_[r].isTried() || isStopped);
+    ownMotionScratch_.moves[r] |= isStopped;
+  }
+}
+
+/// What has stopped is expected where it is seen, whatever it did before.
+void CpuObjectStage::recallStopped(const Graph& graph, Objects& objects) {
+  stopped_.assign(graph.regions.size(), {});
+  findStoppedThings(tracker_.tracks(), *graph.labels, {objects.cameraDx, objects.cameraDy},
+                    graph.regions, stoppedScratch_, stopped_);
+  for (size_t r = 0; r < stopped_.size(); ++r) {
+    if (stopped_[r].track == 0) continue;
+    expected_[r] = stopped_[r].track;
+    objects.regionExpected[r] = tracker_.tracks()[stopped_[r].track - 1].id;
+  }
 }
 
 /// Under Scope::Areas regions of the background lie round the things: a group of which most pixels

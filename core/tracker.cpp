@@ -115,8 +115,9 @@ Point Tracker::expectedShift(const Track& track, Point camera, int64_t stepNs) {
 
 /// All of a track's places are places in the picture, which moves over the ground.
 void Tracker::moveWithCamera(Track& track, Point camera) {
-  for (int32_t* x : {&track.x, &track.stillX, &track.learntX}) *x = toInt(int64_t{*x} + camera.x);
-  for (int32_t* y : {&track.foot, &track.stillFoot, &track.learntFoot})
+  for (int32_t* x : {&track.x, &track.stillX, &track.originX, &track.learntX})
+    *x = toInt(int64_t{*x} + camera.x);
+  for (int32_t* y : {&track.foot, &track.stillFoot, &track.originFoot, &track.learntFoot})
     *y = toInt(int64_t{*y} + camera.y);
 }
 

@@ -54,6 +54,7 @@ struct Track {
   uint32_t sizeSamples = 0;             ///< Frames in which all of it was seen.
   int32_t entryHeight = 0;              ///< Of what came in over a border at its side, in 1/16 px.
   uint32_t entryFrames = 0;             ///< For how many frames that has stayed so.
+  int32_t originX = 0, originFoot = 0;  ///< Where it was first seen.
   int32_t learntX = 0, learntFoot = 0;  ///< Where the scene's scale last learnt from it.
   int32_t centreX = 0, centreY = 0;     ///< From its box's middle to the mean of its pixels.
   uint32_t centreSamples = 0;           ///< Frames from which that was learnt.
@@ -80,9 +81,12 @@ struct Track {
   bool hasMoved = false;
   bool isFromBorder = false;  ///< First seen where things come into the picture, or moving.
   bool isConfirmed = false;
-  bool isInDoubt = false;  ///< It may have taken another's place.
+  bool hasTravelled = false;  ///< It was half its width away from where it was first seen.
+  bool isInDoubt = false;     ///< It may have taken another's place.
 
   [[nodiscard]] Box box() const;  ///< In pixels.
+  /// Where the portrait lies, in pixels, once the picture has moved by `camera` (1/16 px).
+  [[nodiscard]] Point portraitCorner(Point camera = {}) const;
 };
 
 struct TrackerParams {

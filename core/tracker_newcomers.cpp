@@ -325,8 +325,8 @@ void Tracker::begin(const Newcomer& newcomer) {
     }
   }
   if (const uint64_t parent = parentOf(newcomer)) track.parents.push_back(parent);
-  track.stillX = track.learntX = track.x;
-  track.stillFoot = track.learntFoot = track.foot;
+  track.stillX = track.originX = track.learntX = track.x;
+  track.stillFoot = track.originFoot = track.learntFoot = track.foot;
   track.stillSize = track.size;
   track.look = newcomer.appearance;
   track.isFromBorder = newcomer.isAtBorder || showsMovers_;

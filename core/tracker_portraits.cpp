@@ -17,12 +17,6 @@ constexpr size_t kMostSearched = 32;    // Bounds a crowd.
 constexpr int kFarFrom = 50;            // How little it matters where a hidden thing was expected.
 constexpr int64_t kReachNs = 100'000'000;
 
-Point cornerOf(const Track& track) {
-  const auto px = [](int64_t v) { return static_cast<int>(divideRounded(v, kUnit)); };
-  const Size size = track.portrait.sizePx;
-  return {px(track.x - int64_t{size.width} * kUnit / 2), px(track.foot) - size.height};
-}
-
 /// The cells that a box of pixels touches.
 Box cellsOf(const Box& box, int stepPx) {
   const auto down = [&](int v) { return v >= 0 ? v / stepPx : -((stepPx - 1 - v) / stepPx); };
@@ -38,6 +32,13 @@ Point placeOfMatch(const Track& track, Point corner, const PortraitMatch& match)
 }
 
 }  // namespace
+
+Point Track::portraitCorner(Point camera) const {
+  const auto px = [](int64_t v) { return static_cast<int>(divideRounded(v, kUnit)); };
+  const Size sizePx = portrait.sizePx;
+  return {px(x + camera.x - int64_t{sizePx.width} * kUnit / 2),
+          px(int64_t{foot} + camera.y) - sizePx.height};
+}
 
 bool Tracker::isFaithful(const Track& track) {
   return track.portrait.frames >= kKnownPortrait && track.portrait.usual >= kFaithful;
@@ -135,7 +136,7 @@ PortraitMatch Tracker::findTrack(const PortraitScene& scene, size_t index, int64
   const Point reach{within(size.width, turn.x, frame_.width),
                     within(size.height / 2, turn.y, frame_.height)};
   const int calm = static_cast<int>(1 + track.unseenNs / kReachNs);
-  return findPortrait(track.portrait, scene, {cornerOf(track), reach, calm, turn},
+  return findPortrait(track.portrait, scene, {track.portraitCorner(), reach, calm, turn},
                       portraitScratch_);
 }
 
@@ -144,7 +145,7 @@ PortraitMatch Tracker::findTrack(const PortraitScene& scene, size_t index, int64
 void Tracker::hide(const PortraitScene& scene, size_t index, int64_t stepNs) {
   const Track& track = tracks_[index];
   if (track.unseenNs > kHeldNs) return;
-  const Point corner = cornerOf(track), step = expectedShift(track, {}, stepNs);
+  const Point corner = track.portraitCorner(), step = expectedShift(track, {}, stepNs);
   const Point reach{1 + std::abs(step.x), 1 + std::abs(step.y)};
   Sighting& s = sightings_[index];
   s.isBehind = true;
@@ -166,7 +167,7 @@ void Tracker::giveMatch(const PortraitScene& scene, PortraitTask& task, int64_t 
     if (track.isBehind && 4 * match.ground >= match.samples) hide(scene, task.track, stepNs);
     return;
   }
-  const Point corner = cornerOf(track);
+  const Point corner = track.portraitCorner();
   const auto px = [](int sixteenths) { return static_cast<int>(divideRounded(sixteenths, 16)); };
   task.corner = {corner.x + px(match.shift.x), corner.y + px(match.shift.y)};
   s.isMatched = true;
@@ -213,7 +214,7 @@ void Tracker::learnPortrait(size_t index, const Evidence& e) {
   const auto px = [](int32_t v) { return std::max(1, static_cast<int>(divideRounded(v, kUnit))); };
   const Size size{px(track.size.width), px(track.size.height)};
   if (track.portrait.frames == 0) track.portrait.sizePx = size;
-  learn(track.portrait, {e, *e.picture, {}}, cornerOf(track), size, owner_,
+  learn(track.portrait, {e, *e.picture, {}}, track.portraitCorner(), size, owner_,
         static_cast<uint16_t>(index + 1));
 }
 

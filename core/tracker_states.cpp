@@ -282,6 +282,8 @@ void Tracker::settleState(Track& track, int64_t stepNs) const {
     track.stillSize = track.size;
   }
   track.hasMoved |= track.stillNs == 0 && hasLeft;
+  const int64_t wayX = track.x - track.originX, wayY = track.foot - track.originFoot;
+  track.hasTravelled |= 2 * (std::abs(wayX) + std::abs(wayY)) >= track.size.width;
   if (track.hits >= kConfirmHits && track.hasMoved) track.isConfirmed = true;
   if (!track.isConfirmed) return;
   if (track.isSeen)

@@ -30,13 +30,13 @@ bool isGround(const Objects& objects, size_t region) {
   return objects.regionGroup[region] == objects.groundGroup;
 }
 
-/// U1 below 0 counts for what is not ground.
+/// A term below 0 counts where its opposite would otherwise.
 void addGround(const Objects& objects, ArcEnergy& sum) {
   for (size_t i = 0; i < objects.ground.size(); ++i) {
     const GroundEnergy& energy = objects.ground[i];
     const bool isKept = isGround(objects, i);
     sum.motion += std::max(int64_t{0}, isKept ? energy.motion : -energy.motion);
-    sum.prediction += isKept ? 0 : energy.prediction;
+    sum.prediction += std::max(int64_t{0}, isKept ? -energy.prediction : energy.prediction);
   }
 }
 

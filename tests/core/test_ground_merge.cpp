@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/ground_merge.hpp"
+#include "core/own_motion.hpp"
 
 #include <gmock/gmock.h>
 
@@ -28,11 +29,13 @@ struct Row {
     std::vector<GroundEnergy> energies;
     for (const OwnMotion& of : own)
       energies.push_back(weighGround(of.gain, 400, isExpected, weights));
+    std::vector<uint8_t> isOpen;
+    for (const OwnMotion& of : own) isOpen.push_back(of.isTried());
     std::vector<uint32_t> groupOf;
     for (uint32_t i = 0; i < own.size(); ++i) groupOf.push_back(i);
     GroundScratch scratch;
     MergeScratch merging;
-    ground = minimiseWithGround(graph, arcs, {energies, own, moves}, scratch, merging, groupOf);
+    ground = minimiseWithGround(graph, arcs, {energies, isOpen, moves}, scratch, merging, groupOf);
     return groupOf;
   }
 

@@ -15,7 +15,7 @@ namespace {
 using namespace scenes;
 
 constexpr size_t kBytesPerPixel = 200;
-constexpr size_t kBytesPerRegion = 1700;
+constexpr size_t kBytesPerRegion = 1750;
 constexpr size_t kFixedBytes = size_t{8} << 20;
 constexpr int kMostRegions = 65535;
 
