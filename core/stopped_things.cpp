@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/stopped_things.hpp"
 
+#include <algorithm>
+
 namespace rg {
 namespace {
 
