@@ -23,6 +23,8 @@ constexpr int kMostExcess = 6;
 // levels.
 constexpr int64_t kContrast = 16;
 constexpr int64_t kColour = 30;
+// Of the side of a square as large as the frame: a border of that length costs as much as an arc.
+constexpr int64_t kArcShare = 16;
 
 void listNeighbours(uint32_t nodeCount, std::span<const WeightedArc> arcs, MergeScratch& s) {
   s.firstArc.assign(nodeCount + 2, 0);
@@ -119,6 +121,8 @@ void weighArcs(const Motion& motion, std::span<const uint32_t> predicted,
                const MergeWeights& weights, std::vector<ArcEnergy>& energies) {
   const Graph& graph = *motion.graph;
   const int64_t threshold2 = int64_t{weights.motionThreshold} * weights.motionThreshold;
+  const int64_t arcUnit =
+      weights.arc * int64_t{integerSqrt(static_cast<uint64_t>(graph.size.area()))} / kArcShare;
   energies.clear();
   energies.reserve(graph.arcs.size());
   for (const Arc& arc : graph.arcs) {
@@ -136,7 +140,7 @@ void weighArcs(const Motion& motion, std::span<const uint32_t> predicted,
         {.motion = weights.motion * (pull * excess / threshold2) / kFullReliability,
          .border =
              int64_t{weights.border} * arc.borderPx * kContrast / (kContrast + arc.meanContrast()),
-         .arc = weights.arc * kColour /
+         .arc = arcUnit * kColour /
                 (kColour + difference(graph.regions[s].colour, graph.regions[t].colour)),
          .prediction = isPredicted ? weights.prediction * rootArea : 0});
   }

@@ -4,7 +4,7 @@
 //
 // Up to a constant, U is minus the sum of the weights of the arcs that are kept, where an arc
 // between regions s and t with border L weighs
-//   w = border L 16 / (16 + contrast) + arc 30 / (30 + |colour s − colour t|)
+//   w = border L 16 / (16 + contrast) + arc √frame / 16 · 30 / (30 + |colour s − colour t|)
 //       + min(√As, √At) (prediction [same object predicted] − motion r excess),
 //   excess = clamp(|vs − vt|² − T², 0, 6 T²) / T²,  r = the lesser reliability of the two.
 // Regions that show no reliable motion are thus joined by geometry alone. It is cheap to part them
@@ -35,7 +35,7 @@ namespace rg {
 struct MergeWeights {
   int32_t motion = 256;
   int32_t border = 512;
-  int32_t arc = 8192;
+  int32_t arc = 256;
   int32_t prediction = 512;
   int32_t motionThreshold = kMotionUnit;  ///< T, in 1/16 px per frame, at least 1.
 };

@@ -107,7 +107,8 @@ struct ObjectParams {
   double motionWeight = 1.0;       ///< Of U1: what keeping regions together costs that move apart.
   double borderWeight = 2.0;       ///< Of U2: what a pixel of border between two groups costs where
                                    ///< it shows no edge.
-  double arcWeight = 32.0;         ///< Of U3: what a broken arc between like colours costs.
+  double arcWeight = 1.0;          ///< Of U3: what a broken arc between like colours costs, in
+                                   ///< sixteenths of the root of the frame's area.
   double predictionWeight = 2.0;   ///< What it costs to part regions that were expected to be one
                                    ///< object.
   double motionThresholdPx = 1.0;  ///< Speeds that differ by less per frame count as alike.

@@ -50,8 +50,8 @@ constexpr std::array kProperties{
         0, 1000),
     property<Settings, &Settings::arcWeight>(
         "arc-weight",
-        "Weight of U3: what each pair of touching regions in different groups costs, the less the "
-        "more their colours differ",
+        "Weight of U3: what each pair of touching regions in different groups costs, in sixteenths "
+        "of the root of the frame's area, the less the more their colours differ",
         0, 1000),
     property<Settings, &Settings::predictionWeight>(
         "prediction-weight",

@@ -12,6 +12,7 @@ using testing::ElementsAre;
 /// Regions in a row, each with a border of 20 with the next. Those that have a gain were tried.
 struct Row {
   explicit Row(std::vector<OwnMotion> motions) : own(std::move(motions)) {
+    graph.size = {512, 512};  // An arc costs as much as 32 px of border.
     graph.regions.resize(own.size());
     for (Region& region : graph.regions) region.areaPx = 400;
     for (uint16_t i = 1; i < own.size(); ++i)

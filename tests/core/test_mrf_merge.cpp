@@ -26,6 +26,7 @@ struct Row {
   Motion motion;
 
   explicit Row(const std::vector<RegionMotion>& motions, uint32_t borderPx = 4) {
+    graph->size = {512, 512};  // An arc costs as much as 32 px of border.
     for (size_t i = 0; i < motions.size(); ++i) {
       const int x = static_cast<int>(i) * 10;
       graph->regions.push_back({100, {x, 0, 10, 10}, (x + 5) * 256, 5 * 256, {}});
@@ -80,11 +81,17 @@ TEST(MrfMerge, ABorderIsCheaperToBreakWhereAnEdgeIsSeen) {
 TEST(MrfMerge, AnArcIsCheaperToBreakBetweenUnlikeColours) {
   const Row row({kStill, kStill}, 10);
   const MergeWeights weights;
-  EXPECT_EQ(energyOf(row).arc, weights.arc);
+  EXPECT_EQ(energyOf(row).arc, 32 * weights.arc);
   row.graph->regions[0].colour = {10, 100, 50};
   row.graph->regions[1].colour = {0, 130, 50};
-  EXPECT_EQ(energyOf(row).arc, weights.arc / 2);
+  EXPECT_EQ(energyOf(row).arc, 16 * weights.arc);
   EXPECT_EQ(energyOf(row).border, 10 * weights.border);
+}
+
+TEST(MrfMerge, AnArcCostsMoreInALargerFrameAsItsBordersDo) {
+  const Row row({kStill, kStill}, 10);
+  row.graph->size = {1024, 1024};
+  EXPECT_EQ(energyOf(row).arc, 64 * MergeWeights{}.arc);
 }
 
 TEST(MrfMerge, AnEdgePartsWhatMovesALittleApart) {

@@ -69,9 +69,9 @@ TEST(Objects, RegionsAreExpectedToBeTheObjectThatMovesThere) {
     objects = scene.show({{{20 + 12 * i, 80, 12, 30}, kRed}, {{20 + 12 * i, 110, 12, 30}, kBlue}});
   EXPECT_EQ(objects->regionExpected, (std::vector<uint64_t>{1, 1}));
   ASSERT_EQ(objects->arcs.size(), 1u);
-  constexpr int kStep = 170;  // Between red and blue.
+  constexpr int kStep = 170;  // Between red and blue; the frame's area is that of 277x277.
   EXPECT_EQ(objects->arcs[0].border, 2 * 256 * 12 * 16 / (16 + kStep));
-  EXPECT_EQ(objects->arcs[0].arc, 32 * 256 * 30 / (30 + kStep));
+  EXPECT_EQ(objects->arcs[0].arc, 277 * 256 / 16 * 30 / (30 + kStep));
   EXPECT_EQ(objects->arcs[0].prediction, 2 * 256 * 18);  // √360, rounded down
   EXPECT_EQ(objects->arcs[0].motion, 0);
   EXPECT_EQ(objects->regionGroup, (std::vector<uint32_t>{0, 0}));
