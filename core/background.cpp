@@ -4,6 +4,7 @@
 #include "core/background_method.hpp"
 #include "core/components.hpp"
 #include "core/pool.hpp"
+#include "core/renewed_stage.hpp"
 
 #include <optional>
 #include <string>
@@ -102,18 +103,15 @@ Result<std::shared_ptr<const Foreground>> CpuBackgroundStage::process(
   return {std::move(out)};
 }
 
-void CpuBackgroundStage::reset(Reset what) {
+void CpuBackgroundStage::reset(Reset) {
   clock_.breakOff();
-  if (model_) model_->reset(what);
-  if (what != Reset::Stream) return;
-  clock_ = {};
-  size_ = {};
+  if (model_) model_->breakOff();
 }
 
 }  // namespace
 
 std::unique_ptr<BackgroundStage> makeBackgroundStage(Context context) {
-  return std::make_unique<CpuBackgroundStage>(std::move(context));
+  return std::make_unique<RenewedStage<BackgroundStage, CpuBackgroundStage>>(std::move(context));
 }
 
 }  // namespace rg

@@ -99,8 +99,8 @@ struct BackgroundParams {
 class BackgroundStage {
  public:
   virtual ~BackgroundStage() = default;
-  /// Transactional: on an error the model is as it was. The picture's size may change only after
-  /// reset(Reset::Stream).
+  /// Transactional: on an error the model is as it was; after an exception as after
+  /// reset(Reset::Stream). The picture's size may change only after that.
   [[nodiscard]] virtual Result<std::shared_ptr<const Foreground>> process(
       std::shared_ptr<const Picture> picture, const BackgroundParams& params, FrameTime time) = 0;
   virtual void reset(Reset what) = 0;

@@ -4,6 +4,7 @@
 
 #include "core/background.hpp"
 #include "core/frame_clock.hpp"
+#include "core/frame_count.hpp"
 
 namespace rg {
 
@@ -23,7 +24,8 @@ class BackgroundMethodModel {
   /// Writes status, mask, extent and scene; then learns the frame. The mask has the picture's size
   /// and is background outside of the extent, which is that of an earlier frame.
   virtual void segment(const BackgroundJob& job, Foreground& out) = 0;
-  virtual void reset(Reset what) = 0;
+  /// The next frame does not follow the last one.
+  virtual void breakOff() = 0;
 };
 
 [[nodiscard]] std::unique_ptr<BackgroundMethodModel> makePaperBackground();

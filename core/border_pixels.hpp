@@ -70,7 +70,7 @@ class BorderPixels {
   static void choose(const Found& found, Candidates& candidates);
   void clearOutOfScope(int y) const;
 
-  ColourPlanes pixels_, cells_;
+  ColourGrid pixels_, cells_;
   ImageView<const uint16_t> cellIds_;
   ImageView<uint16_t> ids_;
   std::vector<Scratch> scratch_;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/clutter.hpp"
 
+#include "core/time.hpp"
+
 #include <algorithm>
 #include <bit>
 
@@ -15,7 +17,7 @@ constexpr uint32_t kSome = 8 * kOne;  // Two a second for long.
 }  // namespace
 
 void Clutter::age(int64_t stepNs) {
-  sinceNs_ += std::min(stepNs, kLongestNs);
+  sinceNs_ = addTimes(sinceNs_, std::clamp<int64_t>(stepNs, 0, kLongestNs));
   for (; sinceNs_ >= kFadeNs; sinceNs_ -= kFadeNs)
     for (uint32_t& count : counts_) count -= (count + 15) / 16;
 }

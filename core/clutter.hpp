@@ -12,7 +12,6 @@ namespace rg {
 
 class Clutter {
  public:
-  void reset() { *this = {}; }
   /// Time goes on: counts halve about every three seconds.
   void age(int64_t stepNs);
   /// Something was there for a moment only.

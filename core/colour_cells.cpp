@@ -9,8 +9,8 @@
 namespace rg {
 namespace {
 
-ColourPlanes planesOf(const std::array<Image<uint8_t>, 3>& images, int channels, Size size) {
-  ColourPlanes planes;
+ColourGrid planesOf(const std::array<Image<uint8_t>, 3>& images, int channels, Size size) {
+  ColourGrid planes;
   planes.size = size;
   planes.channels = channels;
   for (size_t c = 0; c < 3; ++c)

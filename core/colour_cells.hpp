@@ -20,7 +20,7 @@
 namespace rg {
 
 /// What is to be divided: the colours of pixels or cells, and which of them are in scope.
-struct ColourPlanes {
+struct ColourGrid {
   Size size;
   int channels = 1;                                 ///< 1 or 3.
   std::array<ImageView<const uint8_t>, 3> colours;  ///< Of one channel: three times the same.
@@ -41,8 +41,8 @@ class ColourCells {
              const Executor& executor);
 
   /// Undefined where nothing is in scope.
-  [[nodiscard]] const ColourPlanes& pixels() const { return pixels_; }
-  [[nodiscard]] const ColourPlanes& cells() const { return cells_; }
+  [[nodiscard]] const ColourGrid& pixels() const { return pixels_; }
+  [[nodiscard]] const ColourGrid& cells() const { return cells_; }
 
  private:
   /// Of one thread, for a row.
@@ -64,7 +64,7 @@ class ColourCells {
   std::array<Image<uint8_t>, 3> smooth_, means_;
   Image<uint8_t> cellScope_, weights_, ranges_;
   std::vector<Scratch> scratch_;
-  ColourPlanes pixels_, cells_;
+  ColourGrid pixels_, cells_;
 };
 
 }  // namespace rg

@@ -18,7 +18,7 @@ void voidPairs(const uint8_t* scopeA, const uint8_t* scopeB, int count, uint8_t*
 
 }  // namespace
 
-void ColourLinks::build(const ColourPlanes& planes, const LinkParams& params,
+void ColourLinks::build(const ColourGrid& planes, const LinkParams& params,
                         const Executor& executor) {
   planes_ = planes;
   band_ = params.band;

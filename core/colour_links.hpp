@@ -37,7 +37,7 @@ struct LinkParams {
 
 class ColourLinks {
  public:
-  void build(const ColourPlanes& planes, const LinkParams& params, const Executor& executor);
+  void build(const ColourGrid& planes, const LinkParams& params, const Executor& executor);
 
   [[nodiscard]] Size size() const { return planes_.size; }
   [[nodiscard]] ImageView<const uint8_t> scope() const { return planes_.scope; }
@@ -50,7 +50,7 @@ class ColourLinks {
   void chooseNearest(int y);
   void link(int y, const LinkParams& params);
 
-  ColourPlanes planes_;
+  ColourGrid planes_;
   HueBand band_;
   RowSpans spans_;
   Image<int16_t> hues_;

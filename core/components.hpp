@@ -16,8 +16,6 @@
 
 namespace rg {
 
-enum class Connectivity : uint8_t { Four, Eight };
-
 /// Pixels begin … end − 1 of row y, all of one component.
 struct Run {
   int y = 0;

@@ -6,18 +6,29 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace rg {
 
 class Executor::Arena : public tbb::task_arena {
  public:
   using tbb::task_arena::task_arena;
+
+  /// Starts the threads before there is work, which goes on with fewer where no more can be had.
+  void wake(int threads) {
+    try {
+      execute([&] { tbb::parallel_for(0, threads, [](int) {}); });
+    } catch (const std::runtime_error&) {
+    }
+  }
 };
 
 Executor::Executor(int threads) {
   const int cores = std::max(1, tbb::this_task_arena::max_concurrency());
   threads_ = threads <= 0 ? cores : std::min(threads, cores);
-  if (threads_ > 1) arena_ = std::make_unique<Arena>(threads_);
+  if (threads_ <= 1) return;
+  arena_ = std::make_unique<Arena>(threads_);
+  arena_->wake(threads_);
 }
 
 Executor::~Executor() = default;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/stage.hpp"
+#include "core/time.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -16,7 +17,7 @@ class FrameClock {
   void tick(FrameTime time) {
     constexpr int64_t kMostNs = 1'000'000'000;
     if (time.isKnown && hasLast_) {
-      const int64_t step = time.ns - lastNs_;
+      const int64_t step = timeBetween(lastNs_, time.ns);
       if (step > 0 && step <= kMostNs) {
         intervalNs_ = steps_ == 0 ? step : intervalNs_ + (step - intervalNs_) / 8;
         steps_ = 1;
@@ -28,12 +29,13 @@ class FrameClock {
   void breakOff() { hasLast_ = false; }
 
   [[nodiscard]] int64_t frames(double seconds) const {
-    const auto ns = static_cast<int64_t>(std::clamp(seconds, 0.0, 1e6) * 1e9);
+    const double some = seconds > 0 ? std::min(seconds, 1e6) : 0.0;  // What is no number is 0.
+    const auto ns = static_cast<int64_t>(some * 1e9);
     return std::max<int64_t>(1, ns / std::max<int64_t>(1, intervalNs_));
   }
 
  private:
-  int64_t intervalNs_ = 40'000'000;
+  int64_t intervalNs_ = kNominalStepNs;
   int64_t lastNs_ = 0;
   int steps_ = 0;
   bool hasLast_ = false;

@@ -42,7 +42,7 @@ class FrameDifferenceBackground final : public BackgroundMethodModel {
  public:
   void prepare(const Picture& picture) override;
   void segment(const BackgroundJob& job, Foreground& out) override;
-  void reset(Reset what) override;
+  void breakOff() override { previous_.reset(); }
 
  private:
   void start(const BackgroundJob& job, Foreground& out);
@@ -58,7 +58,7 @@ class FrameDifferenceBackground final : public BackgroundMethodModel {
 
   std::shared_ptr<const Picture> previous_;
   bool hasStarted_ = false;
-  uint32_t frame_ = 0;
+  FrameCount frame_;
   int threshold_ = kLeastThreshold;
   int firstScanned_ = 0, scanStep_ = 1;
   Image<uint8_t> changes_;  ///< Of the scanned rows: how much each pixel changed.
@@ -78,16 +78,11 @@ void FrameDifferenceBackground::prepare(const Picture& picture) {
   isKept_.resize(search_.grid());
 }
 
-void FrameDifferenceBackground::reset(Reset what) {
-  previous_.reset();
-  if (what == Reset::Stream) hasStarted_ = false;
-}
-
 void FrameDifferenceBackground::start(const BackgroundJob& job, Foreground& out) {
   memory_.forget();
   areas_.clear();
   hasStarted_ = true;
-  frame_ = 0;
+  frame_ = {};
   threshold_ = kLeastThreshold;
   out.status = Status::Training;
   clearMask(out);
@@ -100,7 +95,7 @@ void FrameDifferenceBackground::start(const BackgroundJob& job, Foreground& out)
 void FrameDifferenceBackground::scan(const BackgroundJob& job) {
   const int height = job.picture->size().height;
   scanStep_ = std::clamp(job.params.searchInterval, 1, std::max(1, height / kLeastScannedRows));
-  firstScanned_ = static_cast<int>(frame_ % static_cast<uint32_t>(scanStep_));
+  firstScanned_ = static_cast<int>(frame_.value() % static_cast<uint32_t>(scanStep_));
   const ColourPlanes now = everyRow(planesOf(*job.picture), firstScanned_, scanStep_);
   changes_.resize(now.green.size);
   if (previous_) {

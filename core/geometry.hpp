@@ -65,4 +65,7 @@ struct Box {
   return {0, 0, size.width, size.height};
 }
 
+/// Which pixels count as neighbours: those at the four sides, or those at the corners too.
+enum class Connectivity : uint8_t { Four = 4, Eight = 8 };
+
 }  // namespace rg

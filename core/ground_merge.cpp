@@ -37,7 +37,8 @@ uint32_t minimiseWithGround(const Graph& graph, std::span<const ArcEnergy> arcs,
                             const GroundTies& ties, GroundScratch& s, MergeScratch& merging,
                             std::vector<uint32_t>& groupOf) {
   const uint32_t nodes = listNodes(ties, s), ground = nodes - 1;
-  const uint32_t startOfGround = *std::max_element(groupOf.begin(), groupOf.end()) + 1;
+  uint32_t startOfGround = 0;
+  for (const uint32_t group : groupOf) startOfGround = std::max(startOfGround, group + 1);
   s.groupOfNode.assign(nodes, startOfGround);
   for (size_t r = 0; r < groupOf.size(); ++r)
     if (ties.isOpen[r] != 0 && ties.moves[r] != 0) s.groupOfNode[s.nodeOf[r]] = groupOf[r];

@@ -91,7 +91,7 @@ bool readDegrees(std::string_view text, double& to) {
 }
 
 Error noBand(std::string_view text) {
-  std::string message(text);
+  std::string message(text.substr(0, 80));
   message +=
       " is no range of hues: write it as FROM-TO in degrees from 0 to 360, as in 90-150 for "
       "green or 350-10 for red";

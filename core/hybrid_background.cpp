@@ -37,11 +37,11 @@ class HybridBackground final : public BackgroundMethodModel {
  public:
   void prepare(const Picture& picture) override;
   void segment(const BackgroundJob& job, Foreground& out) override;
-  void reset(Reset what) override;
+  void breakOff() override {}
 
  private:
   bool isFirst(const BackgroundJob& job) const {
-    return frame_ < static_cast<uint32_t>(job.params.trainingFrames);
+    return frame_.value() < static_cast<uint32_t>(job.params.trainingFrames);
   }
   void start(const BackgroundJob& job, Foreground& out);
   bool isTooDark(Foreground& out);
@@ -72,7 +72,7 @@ class HybridBackground final : public BackgroundMethodModel {
   BitMask across_, near_;  ///< near_: the foreground and two pixels round it.
   BitMask dark_, shadow_;
   CastShadowScratch shadowScratch_;
-  uint32_t frame_ = 0;
+  FrameCount frame_;
   bool isDark_ = false;
   Point shift_;                   ///< The camera's, from the model.
   SmoothPicture spare_;           ///< For shifting.
@@ -88,15 +88,11 @@ void HybridBackground::prepare(const Picture& picture) {
   rg::prepare(size, picture.isGrey() ? 1 : 3, still_);
 }
 
-void HybridBackground::reset(Reset what) {
-  if (what == Reset::Stream) model_.channels = 0;
-}
-
 void HybridBackground::start(const BackgroundJob& job, Foreground& out) {
   fillFrom(smooth_, job.executor, model_);
   previousRaw_.clear();
   clear(still_);
-  frame_ = 0;
+  frame_ = {};
   shift_ = {};
   offFrames_ = elsewhereFrames_ = 0;
   out.status = Status::Training;
@@ -217,7 +213,7 @@ void HybridBackground::dissolveGhosts(const BackgroundJob& job) {
   forSetPixels(mask_, 0, mask_.height(), [&](int x, int y) {
     if (still_.ages.at(x, y) >= absorbFrames) ghosts_.set(x, y);
   });
-  if (frame_ % 8 == 0)
+  if (frame_.value() % 8 == 0)
     addMoved(smooth_, model_, mask_, still_, job.clock.frames(3.0), moved_, ghosts_);
   replaceWhere(ghosts_, smooth_, job.executor, model_);
   remove(ghosts_, mask_);
@@ -239,7 +235,8 @@ void HybridBackground::findShadow(const BackgroundJob& job) {
 void HybridBackground::learnFrame(const BackgroundJob& job) {
   const auto usual =
       std::clamp<int64_t>(job.clock.frames(job.params.learningTimeS) / kSamples, 2, 4096);
-  const ConsensusRate rate{frame_, isFirst(job) ? 3 : static_cast<int>(usual), isFirst(job)};
+  const ConsensusRate rate{frame_.value(), isFirst(job) ? 3 : static_cast<int>(usual),
+                           isFirst(job)};
   thicken(mask_, 2, job.executor, across_, near_);
   learn(smooth_, {mask_, isFirst(job) ? mask_ : near_, verdicts_.raw, previousRaw_}, rate,
         job.executor, model_);

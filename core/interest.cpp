@@ -37,15 +37,31 @@ bool readShare(std::string_view text, int& to) {
   return true;
 }
 
+/// The beginning of a text, cut between characters of UTF-8.
+std::string_view excerpt(std::string_view text) {
+  constexpr size_t kMostBytes = 80;
+  if (text.size() <= kMostBytes) return text;
+  size_t end = kMostBytes;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;
+  return text.substr(0, end);
+}
+
 Error complaint(std::string_view area, std::string_view why) {
-  std::string message(area);
-  message += " is no area: ";
+  std::string message(excerpt(area));
+  message += message.size() < area.size() ? "... is no area: " : " is no area: ";
   message += why;
   message += ". Areas are written as 0,0.5 1,0.5 1,1 0,1; exclude 0.4,0.6 0.5,0.6 0.5,0.7";
   return {std::move(message)};
 }
 
-Result<InterestPolygon> parsePolygon(std::string_view text) {
+Error tooMany() {
+  return {"more than " + std::to_string(kMostInterestPoints) + " points, or " +
+          std::to_string(kMostInterestBytes) +
+          " bytes of text: leave points out, or draw the areas into a picture and name it as mask"};
+}
+
+/// `left`: how many points it may have.
+Result<InterestPolygon> parsePolygon(std::string_view text, size_t left) {
   InterestPolygon polygon;
   std::string_view rest = text;
   for (std::string_view word = takeWord(rest); !word.empty(); word = takeWord(rest)) {
@@ -58,6 +74,7 @@ Result<InterestPolygon> parsePolygon(std::string_view text) {
     const std::string_view x = takeUntil(y, ",");
     if (!readShare(x, point.x) || !readShare(y, point.y))
       return complaint(text, "its points lie between 0,0 and 1,1");
+    if (polygon.points.size() == left) return tooMany();
     polygon.points.push_back(point);
   }
   if (polygon.points.size() < 3) return complaint(text, "it needs three points at least");
@@ -98,12 +115,15 @@ void fill(const InterestPolygon& polygon, uint8_t value, ImageView<uint8_t> imag
 }  // namespace
 
 Result<std::vector<InterestPolygon>> parsePolygons(std::string_view text) {
+  if (text.size() > kMostInterestBytes) return tooMany();
   std::vector<InterestPolygon> polygons;
+  size_t left = kMostInterestPoints;
   while (!text.empty()) {
     const std::string_view part = takeUntil(text, ";");
     if (part.find_first_not_of(kBlanks) == std::string_view::npos) continue;
-    auto polygon = parsePolygon(part);
+    auto polygon = parsePolygon(part, left);
     if (!polygon) return polygon.error();
+    left -= polygon->points.size();
     polygons.push_back(*std::move(polygon));
   }
   return polygons;

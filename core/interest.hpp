@@ -9,6 +9,7 @@
 #include "core/image.hpp"
 #include "core/result.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string_view>
@@ -24,8 +25,14 @@ struct InterestPolygon {
   std::vector<Point> points;
 };
 
+/// All polygons together have no more points, and their text no more bytes, so that nobody's
+/// setting holds up a stream: a finer shape is for a picture.
+inline constexpr size_t kMostInterestPoints = 1000;
+inline constexpr size_t kMostInterestBytes = size_t{1} << 17;
+
 /// Reads polygons from text: separated by ';', each a list of points "x,y" from 0 to 1 separated by
 /// blanks, three at least, with the word "exclude" before those that are cut out. Empty text: none.
+/// Time is linear in the length of the text.
 [[nodiscard]] Result<std::vector<InterestPolygon>> parsePolygons(std::string_view text);
 
 /// Writes kInside where to look, else 0: inside one of the polygons that are not excluded, where

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/merge_chains.hpp"
 
+#include "core/empty_groups.hpp"
+
 #include <algorithm>
 #include <array>
 
@@ -9,14 +11,18 @@ namespace {
 
 constexpr size_t kMostFollowers = 5;
 constexpr uint32_t kNone = UINT32_MAX;
+constexpr size_t kHubArcs = 64;  // Of fewer, walking them is as fast as looking their sum up.
 
 class ChainSearch {
  public:
-  ChainSearch(std::vector<uint32_t>& groupOf, MergeScratch& s) : groupOf_(groupOf), s_(s) {
+  ChainSearch(std::vector<uint32_t>& groupOf, MergeScratch& s)
+      : groupOf_(groupOf), s_(s), empty_(s.groupSize, s.emptied) {
     s_.gain.resize(groupOf.size());
     s_.notedAt.assign(groupOf.size(), 0);
     s_.groupSize.assign(groupOf.size(), 0);
     for (const uint32_t group : groupOf) ++s_.groupSize[group];
+    s_.seen.assign(groupOf.size(), kNone);
+    findHub();
   }
 
   bool run() {
@@ -24,35 +30,63 @@ class ChainSearch {
     for (uint32_t node = 0; node < groupOf_.size(); ++node) {
       if (!listTargets(node)) continue;
       // A chain may change the group of `node`; what was listed holds only as long as none did.
-      for (size_t i = 0; i < s_.touched.size(); ++i)
+      for (size_t i = 0; i < s_.touched.size(); ++i) {
+        if (s_.visits >= s_.visitLimit) {
+          s_.isCutShort = true;
+          return hasMoved;
+        }
         if (tryChain(node, s_.touched[i])) {
           hasMoved = true;
           break;
         }
+      }
     }
     return hasMoved;
   }
 
  private:
+  void spend(size_t visits) { s_.visits += visits; }
+
+  /// The node with most arcs, and how much it is pulled towards each group. It is a neighbour of
+  /// so many that its arcs can't be walked anew for each of them.
+  void findHub() {
+    size_t most = kHubArcs;
+    for (uint32_t node = 0; node < groupOf_.size(); ++node)
+      if (s_.arcsOf(node).size() > most) {
+        most = s_.arcsOf(node).size();
+        hub_ = node;
+      }
+    if (hub_ == kNone) return;
+    s_.hubWeight.assign(groupOf_.size(), 0);
+    s_.pull.assign(groupOf_.size(), 0);
+    for (const WeightedArc& arc : s_.arcsOf(hub_)) {
+      s_.hubWeight[arc.b] += arc.weight;
+      s_.pull[groupOf_[arc.b]] += arc.weight;
+    }
+  }
+
   /// The groups that `node` could go to, into s_.touched. False if it has no motive to go.
   bool listTargets(uint32_t node) {
     s_.touched.clear();
     bool hasMotive = false;
+    spend(s_.arcsOf(node).size());
     for (const WeightedArc& arc : s_.arcsOf(node)) {
       const uint32_t group = groupOf_[arc.b];
       hasMotive |= group == groupOf_[node] ? arc.weight < 0 : arc.weight > 0;
-      if (group != groupOf_[node] &&
-          std::find(s_.touched.begin(), s_.touched.end(), group) == s_.touched.end())
-        s_.touched.push_back(group);
+      if (group == groupOf_[node] || s_.seen[group] == node) continue;
+      s_.seen[group] = node;
+      s_.touched.push_back(group);
     }
     if (!hasMotive) return false;
-    while (empty_ < s_.groupSize.size() && s_.groupSize[empty_] != 0) ++empty_;
-    if (empty_ < s_.groupSize.size()) s_.touched.push_back(empty_);
+    const uint32_t empty = empty_.first();
+    if (empty < groupOf_.size()) s_.touched.push_back(empty);
     return true;
   }
 
-  [[nodiscard]] int64_t gainOf(uint32_t node, uint32_t to) const {
+  [[nodiscard]] int64_t gainOf(uint32_t node, uint32_t to) {
+    if (node == hub_) return s_.pull[to] - s_.pull[groupOf_[node]];
     int64_t gain = 0;
+    spend(s_.arcsOf(node).size());
     for (const WeightedArc& arc : s_.arcsOf(node)) {
       if (groupOf_[arc.b] == to) gain += arc.weight;
       if (groupOf_[arc.b] == groupOf_[node]) gain -= arc.weight;
@@ -63,6 +97,10 @@ class ChainSearch {
   void move(uint32_t node, uint32_t to) {
     --s_.groupSize[groupOf_[node]];
     ++s_.groupSize[to];
+    if (hub_ != kNone) {
+      s_.pull[groupOf_[node]] -= s_.hubWeight[node];
+      s_.pull[to] += s_.hubWeight[node];
+    }
     groupOf_[node] = to;
   }
 
@@ -71,6 +109,7 @@ class ChainSearch {
   void noteGains(size_t length, uint32_t a, uint32_t b) {
     const uint32_t mover = chain_[length - 1];
     const auto step = static_cast<uint8_t>(length);
+    spend(s_.arcsOf(mover).size());
     for (const WeightedArc& arc : s_.arcsOf(mover)) {
       const uint32_t node = arc.b, group = groupOf_[node];
       if ((group != a && group != b) || s_.notedAt[node] == step) continue;
@@ -85,8 +124,9 @@ class ChainSearch {
   }
 
   /// The neighbour of the chain that gains most by changing between its two groups.
-  [[nodiscard]] uint32_t bestFollower(size_t length, int64_t& gain) const {
+  [[nodiscard]] uint32_t bestFollower(size_t length, int64_t& gain) {
     uint32_t best = kNone;
+    spend(s_.noted.size());
     for (const uint32_t node : s_.noted) {
       if (isInChain(node, length)) continue;
       const int64_t nodeGain = s_.gain[node];
@@ -125,14 +165,17 @@ class ChainSearch {
     s_.noted.clear();
     for (size_t i = length; i > kept; --i)
       move(chain_[i - 1], groupOf_[chain_[i - 1]] == from ? to : from);
-    if (kept > 0) empty_ = 0;
-    return kept > 0;
+    if (kept == 0) return false;
+    for (const uint32_t group : {from, to})
+      if (s_.groupSize[group] == 0) empty_.add(group);
+    return true;
   }
 
   std::vector<uint32_t>& groupOf_;
   MergeScratch& s_;
   std::array<uint32_t, kMostFollowers + 1> chain_{};
-  uint32_t empty_ = 0;  ///< No group below it is empty.
+  EmptyGroups empty_;
+  uint32_t hub_ = kNone;
 };
 
 }  // namespace

@@ -16,6 +16,8 @@ namespace rg {
 /// lets it and then up to kMostFollowers of its neighbours, best first, move between its group and
 /// another, or an empty one; keeps as much of the chain as gains weight. Needs scratch.firstArc and
 /// scratch.neighbours. Returns whether anything moved.
+/// Ends early, and says so in scratch.isCutShort, once scratch.visits has come to
+/// scratch.visitLimit.
 bool moveChains(std::vector<uint32_t>& groupOf, MergeScratch& scratch);
 
 }  // namespace rg

@@ -45,7 +45,7 @@ int32_t trustOf(int64_t weight, int64_t unit) {
 }
 
 /// The vector between the two that both together ask for.
-Point combine(const OwnMotion& own, const MotionPrior& prior) {
+Point combine(const SeenMotion& own, const MotionPrior& prior) {
   const Information& i = own.information;
   const Step step = solveStep(i.xx + prior.weight, i.xy, i.yy + prior.weight,
                               {i.xx * (own.at.x - prior.at.x) + i.xy * (own.at.y - prior.at.y),
@@ -59,7 +59,7 @@ Point combine(const OwnMotion& own, const MotionPrior& prior) {
 }  // namespace
 
 std::span<const MotionPrior> MotionConsensus::run(const Graph& graph,
-                                                  std::span<const OwnMotion> own,
+                                                  std::span<const SeenMotion> own,
                                                   const Executor& executor) {
   findNeighbours(graph);
   ownTrust_.resize(own.size());
@@ -121,7 +121,7 @@ void MotionConsensus::keepStrongest(size_t region) {
 }
 
 /// How much a vector is at odds with what the region saw and what its neighbours have.
-int64_t MotionConsensus::disagreement(size_t region, const OwnMotion& own, Point at) const {
+int64_t MotionConsensus::disagreement(size_t region, const SeenMotion& own, Point at) const {
   constexpr int64_t kOwnShare = 77;  // Of kOne: 0.3.
   const int64_t dx = at.x - own.at.x, dy = at.y - own.at.y;
   const Information& i = own.information;
@@ -136,7 +136,7 @@ int64_t MotionConsensus::disagreement(size_t region, const OwnMotion& own, Point
 }
 
 /// Of the region's vector and its neighbours', the one that all agree with best.
-Point MotionConsensus::findCentre(size_t region, const OwnMotion& own) const {
+Point MotionConsensus::findCentre(size_t region, const SeenMotion& own) const {
   Point best = before_[region].at;
   int64_t least = disagreement(region, own, best);
   for (const Neighbour& n : neighboursOf(region)) {
@@ -150,7 +150,7 @@ Point MotionConsensus::findCentre(size_t region, const OwnMotion& own) const {
   return best;
 }
 
-void MotionConsensus::sweep(size_t region, const OwnMotion& own) {
+void MotionConsensus::sweep(size_t region, const SeenMotion& own) {
   after_[region] = before_[region];
   const Point centre = findCentre(region, own);
   int64_t weight = 0, x = 0, y = 0;

@@ -20,7 +20,7 @@
 namespace rg {
 
 /// What a region saw of its own motion.
-struct OwnMotion {
+struct SeenMotion {
   Point at;                 ///< 1/256 px.
   Information information;  ///< All 0: nothing.
 };
@@ -29,7 +29,7 @@ class MotionConsensus {
  public:
   /// own[i] and the result's [i] belong to label i + 1. The result is what the neighbours alone
   /// expect, weight 0 where there are none.
-  std::span<const MotionPrior> run(const Graph& graph, std::span<const OwnMotion> own,
+  std::span<const MotionPrior> run(const Graph& graph, std::span<const SeenMotion> own,
                                    const Executor& executor);
 
  private:
@@ -44,9 +44,9 @@ class MotionConsensus {
 
   void findNeighbours(const Graph& graph);
   void keepStrongest(size_t region);
-  void sweep(size_t region, const OwnMotion& own);
-  [[nodiscard]] Point findCentre(size_t region, const OwnMotion& own) const;
-  [[nodiscard]] int64_t disagreement(size_t region, const OwnMotion& own, Point at) const;
+  void sweep(size_t region, const SeenMotion& own);
+  [[nodiscard]] Point findCentre(size_t region, const SeenMotion& own) const;
+  [[nodiscard]] int64_t disagreement(size_t region, const SeenMotion& own, Point at) const;
   [[nodiscard]] std::span<const Neighbour> neighboursOf(size_t region) const {
     return {neighbours_.data() + starts_[region], counts_[region]};
   }

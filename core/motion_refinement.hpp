@@ -46,7 +46,7 @@ class MotionRefinement {
   std::shared_ptr<const Picture> smoothOf_;  ///< Whose smooth luma smoothCurrent_ holds.
   std::array<FitPlane, 2> planes_;
   std::vector<Candidate> alone_;
-  std::vector<OwnMotion> own_;
+  std::vector<SeenMotion> own_;
   MotionConsensus consensus_;
 };
 

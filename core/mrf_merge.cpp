@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/mrf_merge.hpp"
 
+#include "core/empty_groups.hpp"
 #include "core/forest.hpp"
 #include "core/merge_chains.hpp"
 #include "core/merge_contraction.hpp"
@@ -73,17 +74,17 @@ bool moveNodes(std::vector<uint32_t>& groupOf, MergeScratch& s) {
   s.pull.assign(nodeCount, 0);
   s.isSettled.assign(nodeCount, 0);
   bool hasMoved = false;
-  uint32_t empty = 0;
+  EmptyGroups empty(s.groupSize, s.emptied);
   for (int sweep = 0; sweep < kMaxSweeps; ++sweep) {
     bool isChanged = false;
     for (uint32_t node = 0; node < nodeCount; ++node) {
       if (s.isSettled[node] != 0) continue;
       s.isSettled[node] = 1;
-      while (empty < nodeCount && s.groupSize[empty] != 0) ++empty;
       const uint32_t from = groupOf[node];
-      const uint32_t to = bestGroup(node, empty < nodeCount ? empty : kNone, groupOf, s);
+      const uint32_t free = empty.first();
+      const uint32_t to = bestGroup(node, free < nodeCount ? free : kNone, groupOf, s);
       if (to == from) continue;
-      if (--s.groupSize[from] == 0) empty = std::min(empty, from);
+      if (--s.groupSize[from] == 0) empty.add(from);
       ++s.groupSize[to];
       groupOf[node] = to;
       for (const WeightedArc& arc : s.arcsOf(node)) s.isSettled[arc.b] = 0;
@@ -106,12 +107,14 @@ uint32_t splitAndNumber(std::span<const WeightedArc> arcs, MergeScratch& s,
   return count;
 }
 
-void improve(MergeScratch& s, std::vector<uint32_t>& groupOf) {
+void improve(uint64_t mostVisits, MergeScratch& s, std::vector<uint32_t>& groupOf) {
+  s.visitLimit = s.visits + mostVisits;
   contract(s, groupOf);
   for (int restart = 0; restart < kMaxRestarts; ++restart) {
     const bool hasMoved = moveNodes(groupOf, s);
     if (!moveChains(groupOf, s) && !hasMoved) return;
     contract(s, groupOf);
+    if (s.visits >= s.visitLimit) return;
   }
 }
 
@@ -172,14 +175,17 @@ int64_t keptWeight(std::span<const WeightedArc> arcs, std::span<const uint32_t> 
 void minimise(uint32_t nodeCount, std::span<const WeightedArc> arcs, MergeScratch& scratch,
               std::vector<uint32_t>& groupOf) {
   listNeighbours(nodeCount, arcs, scratch);
+  const uint64_t visitsOfStart = mostVisits(nodeCount, arcs.size()) / 2;
+  scratch.visits = 0;
+  scratch.isCutShort = false;
   const bool hasStart =
       groupOf.size() == nodeCount && splitAndNumber(arcs, scratch, groupOf) < nodeCount;
   if (hasStart) scratch.alternative = groupOf;
   groupOf.resize(nodeCount);
   std::iota(groupOf.begin(), groupOf.end(), 0u);
-  improve(scratch, groupOf);
+  improve(visitsOfStart, scratch, groupOf);
   if (hasStart) {
-    improve(scratch, scratch.alternative);
+    improve(visitsOfStart, scratch, scratch.alternative);
     if (keptWeight(arcs, scratch.alternative) >= keptWeight(arcs, groupOf))
       groupOf.swap(scratch.alternative);
   }

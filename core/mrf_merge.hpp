@@ -67,12 +67,17 @@ struct MergeScratch {
 
   // The local search.
   std::vector<int64_t> pull;       ///< Of a node towards each group.
+  std::vector<int64_t> hubWeight;  ///< Of each node's arcs to the node that has most.
+  std::vector<uint32_t> emptied;   ///< Of EmptyGroups.
   std::vector<uint8_t> isSettled;  ///< Of each node: nothing changed around it since its last turn.
   std::vector<uint32_t> groupSize;
   std::vector<uint32_t> touched;
   std::vector<uint8_t> notedAt;  ///< Of each node the length of the chain that it was met at, or 0.
   std::vector<int64_t> gain;     ///< Of those, by changing between the chain's two groups.
   std::vector<uint32_t> noted;
+  uint64_t visits = 0;               ///< Of arcs, by the chains.
+  uint64_t visitLimit = UINT64_MAX;  ///< No chain begins beyond it.
+  bool isCutShort = false;           ///< Chains were left out for that.
 
   [[nodiscard]] std::span<const WeightedArc> arcsOf(uint32_t node) const {
     return {neighbours.data() + firstArc[node], neighbours.data() + firstArc[node + 1]};
@@ -121,6 +126,12 @@ inline constexpr int64_t kGainUnit = 256;
 void listArcs(const Graph& graph, std::span<const ArcEnergy> energies,
               std::vector<WeightedArc>& arcs);
 
+/// Arcs that the chains of one call of minimise() look at, at most, but for the last chain of each
+/// start. Frames of a thousand regions take a tenth to a half of it.
+[[nodiscard]] constexpr uint64_t mostVisits(uint64_t nodes, uint64_t arcs) {
+  return (uint64_t{1} << 21) + 64 * (nodes + arcs);
+}
+
 /// Sum of the weights of the arcs inside groups: what minimising U maximises.
 [[nodiscard]] int64_t keptWeight(std::span<const WeightedArc> arcs,
                                  std::span<const uint32_t> groupOf);
@@ -128,7 +139,10 @@ void listArcs(const Graph& graph, std::span<const ArcEnergy> energies,
 /// Groups the nodes so that keptWeight is as large as contraction by mutual best choice and a local
 /// search make it. If `groupOf` comes with an entry per node, that partition is a second start and
 /// the better end is taken. Every group of the result is connected by arcs.
-/// Time: O(E) for each round of the contraction and each sweep of the search; both are limited.
+/// Time: O(E) for each round of the contraction and each sweep of the search; both are limited, and
+/// so are the arcs that chains look at (mostVisits). Something like a wall that tens of thousands
+/// of specks touch would take their square. Where the limit is reached, the other nodes are moved
+/// one by one only, and scratch.isCutShort is set.
 void minimise(uint32_t nodeCount, std::span<const WeightedArc> arcs, MergeScratch& scratch,
               std::vector<uint32_t>& groupOf);
 

@@ -2,12 +2,16 @@
 #include "core/object_delay.hpp"
 
 #include "core/pixel.hpp"
+#include "core/time.hpp"
 
 #include <algorithm>
 #include <utility>
 
 namespace rg {
 namespace {
+
+constexpr int64_t kLongestStepNs = 3'600'000'000'000;
+constexpr int64_t kLongestUs = int64_t{1} << 30;  // Times a difference of two ints: below 2^63.
 
 const Object* findObject(const Objects& frame, uint64_t id) {
   const auto at = std::lower_bound(frame.objects.begin(), frame.objects.end(), id,
@@ -22,19 +26,24 @@ bool isSeen(const Object& object) {
 }  // namespace
 
 void ObjectDelay::push(std::shared_ptr<const Objects> objects, int64_t timeNs) {
-  entries_.push_back({std::move(objects), timeNs});
+  uint64_t clockNs = 0;
+  if (!entries_.empty()) {
+    const Entry& last = entries_.back();
+    const int64_t step = std::min(timeBetween(last.timeNs, timeNs), kLongestStepNs);
+    clockNs = last.clockNs + static_cast<uint64_t>(step > 0 ? step : kNominalStepNs);
+  }
+  entries_.push_back({std::move(objects), timeNs, clockNs});
 }
 
 std::shared_ptr<const Objects> ObjectDelay::pop(int64_t delayNs) {
-  const bool isDue =
-      !entries_.empty() && entries_.back().timeNs - entries_.front().timeNs >= delayNs;
+  const bool isDue = !entries_.empty() && entries_.back().clockNs - entries_.front().clockNs >=
+                                              static_cast<uint64_t>(std::max<int64_t>(delayNs, 0));
   return isDue ? popAny() : nullptr;
 }
 
 std::shared_ptr<const Objects> ObjectDelay::popAny() {
   if (entries_.empty()) return nullptr;
-  const Entry entry = std::move(entries_.front());
-  entries_.pop_front();
+  const Entry& entry = entries_.front();
   const std::shared_ptr<Objects> frame = pool_.take();
   frame->copyFrom(*entry.objects);
   forgetTold(frame->events);
@@ -43,6 +52,7 @@ std::shared_ptr<const Objects> ObjectDelay::popAny() {
     bridge(object, entry.timeNs);
   }
   rememberSeen(*frame, entry.timeNs);
+  entries_.pop_front();  // Last: where memory ran out before, it is still there.
   return frame;
 }
 
@@ -79,8 +89,10 @@ void ObjectDelay::bridge(Object& object, int64_t timeNs) const {
     const Object* found = findObject(*later.objects, object.id);
     if (!found || !isSeen(*found)) continue;
     const auto& [from, fromNs] = before->second;
-    const int64_t whole = std::max<int64_t>(1, (later.timeNs - fromNs) / 1000);
-    const int64_t part = (timeNs - fromNs) / 1000;
+    // Times may be any distance apart; what counts of a long one is its share.
+    int64_t whole = std::max<int64_t>(1, timeBetween(fromNs, later.timeNs) / 1000);
+    int64_t part = std::clamp<int64_t>(timeBetween(fromNs, timeNs) / 1000, 0, whole);
+    for (; whole > kLongestUs; part /= 2) whole /= 2;
     const auto between = [&](int a, int b) {
       return static_cast<int>(a + divideRounded((int64_t{b} - a) * part, whole));
     };

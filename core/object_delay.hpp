@@ -9,6 +9,7 @@
 #include "core/objects.hpp"
 #include "core/pool.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <map>
@@ -20,9 +21,12 @@ namespace rg {
 
 class ObjectDelay {
  public:
-  /// Adds the next frame. timeNs: since any beginning, never less than that of the frame before.
+  /// Adds the next frame. timeNs: since any beginning. A frame that is no later than the one before
+  /// counts as later by kNominalStepNs, so that a time that stands still holds nothing for ever.
   void push(std::shared_ptr<const Objects> objects, int64_t timeNs);
-  /// The oldest frame, if the newest is later by at least delayNs; null otherwise.
+  /// How many frames are held.
+  [[nodiscard]] size_t count() const { return entries_.size(); }
+  /// The oldest frame, if the newest is later by at least delayNs, an hour at most; null otherwise.
   [[nodiscard]] std::shared_ptr<const Objects> pop(int64_t delayNs);
   /// The oldest frame, told with what is there; null if there is none.
   [[nodiscard]] std::shared_ptr<const Objects> popAny();
@@ -32,6 +36,7 @@ class ObjectDelay {
   struct Entry {
     std::shared_ptr<const Objects> objects;
     int64_t timeNs = 0;
+    uint64_t clockNs = 0;  ///< The same, but always going on; wraps.
   };
   struct Seen {
     Object object;

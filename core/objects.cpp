@@ -11,7 +11,9 @@
 #include "core/pixel.hpp"
 #include "core/pool.hpp"
 #include "core/region_owners.hpp"
+#include "core/renewed_stage.hpp"
 #include "core/stopped_things.hpp"
+#include "core/time.hpp"
 #include "core/tracker.hpp"
 
 #include <algorithm>
@@ -22,8 +24,7 @@
 namespace rg {
 namespace {
 
-constexpr int64_t kNominalStepNs = 40'000'000;
-constexpr int64_t kLongestStepNs = 10'000'000'000;
+constexpr int64_t kLongestStepNs = 10'000'000'000;  // Sums of these last for 900 million frames.
 
 MergeWeights weightsOf(const ObjectParams& params) {
   const auto q8 = [](double value) {
@@ -48,6 +49,8 @@ class CpuObjectStage final : public ObjectStage {
                                                  const ObjectParams& params,
                                                  FrameTime time) override;
   void reset(Reset what) override;
+  [[nodiscard]] TrackerLegacy bequeath() noexcept { return tracker_.bequeath(); }
+  void inherit(TrackerLegacy&& legacy) noexcept { tracker_.inherit(std::move(legacy)); }
 
  private:
   void mergeRegions(const Motion& motion, const ObjectParams& params, int64_t stepNs,
@@ -101,7 +104,7 @@ class CpuObjectStage final : public ObjectStage {
 /// Time since the previous frame; a nominal step where it is unknown or runs backwards.
 int64_t CpuObjectStage::stepTo(FrameTime time) {
   const bool isKnown = hasLast_ && time.isKnown && last_.isKnown && time.ns > last_.ns;
-  const int64_t step = isKnown    ? std::min(time.ns - last_.ns, kLongestStepNs)
+  const int64_t step = isKnown    ? std::min(timeBetween(last_.ns, time.ns), kLongestStepNs)
                        : hasLast_ ? kNominalStepNs
                                   : 0;
   last_ = time;
@@ -111,7 +114,7 @@ int64_t CpuObjectStage::stepTo(FrameTime time) {
 
 void CpuObjectStage::reset(Reset what) {
   if (what == Reset::Gap) return;  // The next frame's time tells how far to predict.
-  tracker_.reset(what == Reset::Stream);
+  tracker_.reset();
   previous_.reset();
   trends_.reset();
   hasLast_ = false;
@@ -174,6 +177,7 @@ void CpuObjectStage::mergeRegions(const Motion& motion, const ObjectParams& para
     minimise(static_cast<uint32_t>(graph.regions.size()), arcs_, mergeScratch_, groupOf);
     partGroups(trend_, expected_, layerScratch_, groupOf);
   }
+  objects.isCutShort = mergeScratch_.isCutShort;
   describeGroups(shown, groupOf, groups_);
   markBackground(graph, objects);
 }
@@ -329,6 +333,7 @@ Result<std::shared_ptr<const Objects>> CpuObjectStage::process(std::shared_ptr<c
   objects->arcs.clear();
   objects->groundGroup = Objects::kNoGroup;
   objects->ground.clear();
+  objects->isCutShort = false;
   objects->cameraDx = objects->cameraDy = 0;
   const TrackerParams tracking{
       static_cast<int64_t>(std::clamp(params.maxLostTimeS, 0.0, 3600.0) * 1e9),
@@ -342,9 +347,9 @@ Result<std::shared_ptr<const Objects>> CpuObjectStage::process(std::shared_ptr<c
   objects->motion = motion;
   if (!hasRegions) {
     tracker_.predict(stepNs, tracking);
-    objects->events = tracker_.events();
     objects->slots.resize(motion->size);
     objects->slots.fill(0);
+    tracker_.takeEvents(false, objects->events);
     return std::shared_ptr<const Objects>(objects);
   }
   mergeRegions(*motion, params, stepNs, *objects);
@@ -353,17 +358,15 @@ Result<std::shared_ptr<const Objects>> CpuObjectStage::process(std::shared_ptr<c
   givePixels(*graph, *objects);
   describe(*graph, time.isKnown, *objects);
   nameRegions(*graph, *objects);
-  objects->events = tracker_.events();
   const Foreground* foreground = graph->labels->foreground.get();
-  if (foreground && isAnotherView(foreground->scene.event))
-    objects->events.push_back({EventKind::SceneChanged, {}});
+  tracker_.takeEvents(foreground && isAnotherView(foreground->scene.event), objects->events);
   return std::shared_ptr<const Objects>(objects);
 }
 
 }  // namespace
 
 std::unique_ptr<ObjectStage> makeObjectStage(Context context) {
-  return std::make_unique<CpuObjectStage>(std::move(context));
+  return std::make_unique<RenewedStage<ObjectStage, CpuObjectStage>>(std::move(context));
 }
 
 }  // namespace rg

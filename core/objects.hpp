@@ -77,7 +77,9 @@ struct Objects {
   uint32_t groundGroup = kNoGroup;   ///< What is background under a moving camera.
   std::vector<GroundEnergy> ground;  ///< Of each region's arc to the ground, under a moving camera;
                                      ///< empty otherwise. Kept where the region is background.
-  int32_t cameraDx = 0;  ///< Motion of the background since the previous frame, in 1/16 px.
+  bool isCutShort = false;  ///< So many regions touch one that the search for the best groups was
+                            ///< ended early (core/mrf_merge.hpp).
+  int32_t cameraDx = 0;     ///< Motion of the background since the previous frame, in 1/16 px.
   int32_t cameraDy = 0;
   std::vector<Event> events;
 
@@ -95,6 +97,7 @@ struct Objects {
     arcs = other.arcs;
     groundGroup = other.groundGroup;
     ground = other.ground;
+    isCutShort = other.isCutShort;
     cameraDx = other.cameraDx;
     cameraDy = other.cameraDy;
     events = other.events;

@@ -21,7 +21,7 @@ class PaperBackground final : public BackgroundMethodModel {
  public:
   void prepare(const Picture& picture) override;
   void segment(const BackgroundJob& job, Foreground& out) override;
-  void reset(Reset what) override;
+  void breakOff() override { previous_.reset(); }
 
  private:
   void learnFirst(const BackgroundJob& job);
@@ -31,7 +31,7 @@ class PaperBackground final : public BackgroundMethodModel {
   GaussianBackground model_;
   std::shared_ptr<const Picture> previous_;
   bool isTrained_ = false;
-  uint32_t frame_ = 0;
+  FrameCount frame_;  ///< Since the model was begun.
   std::array<Image<uint8_t>, 3> mean_;
   Image<uint8_t> simple_, gaussian_, common_, edges_, filled_;
   BitMask found_, shadow_;
@@ -46,13 +46,6 @@ void PaperBackground::prepare(const Picture& picture) {
     image->resize(size);
   shadow_.resize(size);
   if (model_.channels == 0) startTraining(picture, model_);
-}
-
-void PaperBackground::reset(Reset what) {
-  previous_.reset();
-  if (what != Reset::Stream) return;
-  model_.channels = 0;
-  isTrained_ = false;
 }
 
 void PaperBackground::learnFirst(const BackgroundJob& job) {
@@ -132,8 +125,9 @@ void PaperBackground::segment(const BackgroundJob& job, Foreground& out) {
   validate(job, out.mask);
   // Foreground is learnt too, slowly, so that what has stopped becomes background in the end.
   const UpdateRates rates{updateRate(job.clock.frames(job.params.learningTimeS)),
-                          updateRate(job.clock.frames(job.params.absorbTimeS)), frame_++};
+                          updateRate(job.clock.frames(job.params.absorbTimeS)), frame_.value()};
   updateGaussian(*job.picture, out.mask, rates, job.executor, model_);
+  ++frame_;
   previous_ = job.picture;
 }
 

@@ -77,8 +77,11 @@ void joinRuns(const Evidence& e, const std::vector<RegionRun>& runs,
 
 void findPieces(const Evidence& e, std::span<const uint16_t> owner, PieceScratch& s,
                 std::vector<Piece>& pieces) {
-  if (s.grid != e.grid) s.label.assign(e.group.size(), 0);
-  s.grid = e.grid;
+  if (s.grid != e.grid) {
+    s.grid = e.grid;
+    s.label.assign(e.group.size(), 0);
+    s.runs.clear();
+  }
   const auto fill = [&](const RegionRun& run, uint32_t label) {
     std::fill_n(s.label.data() + e.at(run.begin, run.y), run.end - run.begin, label);
   };

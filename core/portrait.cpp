@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/portrait.hpp"
 
+#include "core/frame_count.hpp"
 #include "core/pixel.hpp"
 
 #include <algorithm>
@@ -108,10 +109,16 @@ struct Finder {
     return judge(p, picture, window, {where.corner.x + shift.x, where.corner.y + shift.y}, skip);
   }
   [[nodiscard]] int64_t costOf(Point shift, uint32_t samples) const {
+    if (samples == 0) return 0;
     const int64_t width = std::max(1, p.sizePx.width + 3 * where.turn.x);
     const int64_t height = std::max(1, p.sizePx.height + 3 * where.turn.y);
-    const int64_t far = shift.x * shift.x * height * height + shift.y * shift.y * width * width;
-    return 9 * kGain * int64_t{samples} * far / (width * width * height * height * where.calm);
+    const int64_t across = shift.x * height, down = shift.y * width;
+    const int64_t far = across * across + down * down;
+    // Things as large as the largest frames, unseen for an hour, reach the ends of 64 bits.
+    const int64_t weight = 9 * kGain * int64_t{samples};
+    const int64_t whole = width * width * height * height;
+    return std::min(far, INT64_MAX / weight) * weight /
+           (whole * std::min<int64_t>(where.calm, INT64_MAX / whole));
   }
   [[nodiscard]] Key keyAt(Point shift, int skip) const {
     const Score score = scoreAt(shift, skip);
@@ -235,7 +242,7 @@ void learn(Portrait& p, const PortraitScene& scene, Point corner, Size sizePx,
     p.usual = static_cast<uint16_t>(
         divideRounded(p.usual * known + int64_t{agreeing} * 256 / solid, known + 1));
   }
-  ++p.frames;
+  countUp(p.frames);
   findEdges(p);
 }
 

@@ -22,9 +22,8 @@ void fillRun(const PixelRun& run, uint16_t value, int width, uint16_t* to) {
 
 }  // namespace
 
-uint32_t RegionDivision::run(const ColourPlanes& planes, const PixelRuns& runs,
-                             const Limits& limits, const Executor& executor,
-                             ImageView<uint16_t> ids) {
+uint32_t RegionDivision::run(const ColourGrid& planes, const PixelRuns& runs, const Limits& limits,
+                             const Executor& executor, ImageView<uint16_t> ids) {
   planes_ = planes;
   runs_ = &runs;
   sumParts(executor);
@@ -43,7 +42,7 @@ uint32_t RegionDivision::run(const ColourPlanes& planes, const PixelRuns& runs,
   return divide({limits.minAreaPx, limits.maxRegions, grainPx}, executor, ids);
 }
 
-uint32_t RegionDivision::runAgain(const RegionDivision& first, const ColourPlanes& planes,
+uint32_t RegionDivision::runAgain(const RegionDivision& first, const ColourGrid& planes,
                                   const PixelRuns& runs, const Limits& limits,
                                   const Executor& executor, ImageView<uint16_t> ids) {
   planes_ = planes;

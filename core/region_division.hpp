@@ -27,12 +27,12 @@ class RegionDivision {
   /// Writes the region of every pixel or cell of `planes`, which `runs` belong to: 1 … count, or 0
   /// out of scope. Where parts that touch nothing are more than allowed, the smallest get 0, too.
   /// Returns count.
-  uint32_t run(const ColourPlanes& planes, const PixelRuns& runs, const Limits& limits,
+  uint32_t run(const ColourGrid& planes, const PixelRuns& runs, const Limits& limits,
                const Executor& executor, ImageView<uint16_t> ids);
 
   /// The same for the parts of equal labels that `runs` are, where the labels in `ids` are those of
   /// `first`, moved a little: each part has the mean colour of its label's region.
-  uint32_t runAgain(const RegionDivision& first, const ColourPlanes& planes, const PixelRuns& runs,
+  uint32_t runAgain(const RegionDivision& first, const ColourGrid& planes, const PixelRuns& runs,
                     const Limits& limits, const Executor& executor, ImageView<uint16_t> ids);
 
  private:
@@ -44,7 +44,7 @@ class RegionDivision {
   uint32_t numberRegions(uint32_t maxRegions);
   void writeRow(int y, uint16_t* ids) const;
 
-  ColourPlanes planes_;
+  ColourGrid planes_;
   const PixelRuns* runs_ = nullptr;
   struct Sums {
     uint32_t red = 0, green = 0, blue = 0;  // Of a band's pixels: 255 · 2^14 · 64 < 2^32.

@@ -4,6 +4,7 @@
 #include "core/arc_table.hpp"
 #include "core/pixel.hpp"
 #include "core/pool.hpp"
+#include "core/renewed_stage.hpp"
 #include "core/simd/run_rows.hpp"
 
 #include <algorithm>
@@ -264,7 +265,7 @@ void CpuGraph::sortRuns(const GraphBuilder& builder, const Labels& labels, Regio
 }  // namespace
 
 std::unique_ptr<GraphStage> makeGraphStage(Context context) {
-  return std::make_unique<CpuGraph>(std::move(context));
+  return std::make_unique<RenewedStage<GraphStage, CpuGraph>>(std::move(context));
 }
 
 }  // namespace rg

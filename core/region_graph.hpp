@@ -54,8 +54,6 @@ struct Arc {
   }
 };
 
-enum class Connectivity : uint8_t { Four = 4, Eight = 8 };
-
 /// What srg says of one frame. Immutable once published.
 struct Graph {
   Size size;

@@ -7,6 +7,7 @@
 #include "core/motion_refinement.hpp"
 #include "core/padded_luma.hpp"
 #include "core/pool.hpp"
+#include "core/renewed_stage.hpp"
 #include "core/shift_search.hpp"
 
 #include <algorithm>
@@ -115,7 +116,7 @@ RegionMotion CpuMotion::matchRegion(std::span<const MatchedPart> parts, const Pi
 }  // namespace
 
 std::unique_ptr<MotionStage> makeMotionStage(Context context) {
-  return std::make_unique<CpuMotion>(std::move(context));
+  return std::make_unique<RenewedStage<MotionStage, CpuMotion>>(std::move(context));
 }
 
 }  // namespace rg

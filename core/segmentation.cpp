@@ -9,6 +9,7 @@
 #include "core/pixel_runs.hpp"
 #include "core/pool.hpp"
 #include "core/region_division.hpp"
+#include "core/renewed_stage.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -239,7 +240,7 @@ ImageView<const uint8_t> CpuSegmentation::decideByHue(const Picture& picture,
 }  // namespace
 
 std::unique_ptr<SegmentationStage> makeSegmentationStage(Context context) {
-  return std::make_unique<CpuSegmentation>(std::move(context));
+  return std::make_unique<RenewedStage<SegmentationStage, CpuSegmentation>>(std::move(context));
 }
 
 }  // namespace rg

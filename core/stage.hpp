@@ -33,7 +33,8 @@ struct FrameTime {
   bool isKnown = false;  ///< False: neither PTS nor framerate; frames are taken to be 40 ms apart.
 };
 
-/// What happened to the stream, and so what must be forgotten (design rule 5).
+/// What happened to the stream, and so what must be forgotten (design rule 5). After an exception
+/// from its process() a stage is as after reset(Reset::Stream); after an error it is as before.
 enum class Reset : uint8_t {
   Stream,  ///< New size, format or stream: drop model and previous frame, end tracks.
   Flush,   ///< Seek or time running backwards: keep the model, drop the previous frame, end tracks.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/tracker.hpp"
 
+#include "core/frame_count.hpp"
 #include "core/pixel.hpp"
 
 #include <algorithm>
@@ -88,15 +89,11 @@ Box Track::box() const {
   return {px(int64_t{x} - size.width / 2), px(foot) - height, width, height};
 }
 
-void Tracker::reset(bool isNewScene) {
-  for (const Track& track : tracks_)
-    if (track.isConfirmed) ended_.push_back(track.id);
+void Tracker::reset() {
+  endsAll_ = true;
   tracks_.clear();
   encounters_.clear();
   owner_.clear();
-  if (!isNewScene) return;
-  scale_.reset({});
-  clutter_.reset();
 }
 
 /// In 1/16 px.
@@ -127,7 +124,7 @@ void Tracker::advance(Track& track, int64_t stepNs) const {
   track.x = toInt(int64_t{track.x} + step.x);
   track.foot = toInt(int64_t{track.foot} + step.y);
   track.ageNs += stepNs;
-  ++track.ageFrames;
+  countUp(track.ageFrames);
   if (before.height == 0 || (isFaithful(track) && !scale_.isUniform())) return;
   const Extent after = scale_.at(track.foot / kUnit);
   track.size.width = toInt(int64_t{track.size.width} * after.width / before.width);
@@ -315,7 +312,7 @@ Place Tracker::placeOfWhole(Track& track, const Sighting& s) const {
     };
     learn(track.centreX, meanX - (left + right) / 2);
     learn(track.centreY, meanY - (top + bottom) / 2);
-    ++track.centreSamples;
+    countUp(track.centreSamples);
     return {meanX - track.centreX, meanY - track.centreY + size.height / 2};
   }
   if (s.box.x <= 0 && s.box.right() < frame_.width) place.x = right - size.width / 2;
@@ -390,7 +387,7 @@ void Tracker::correct(size_t index, int64_t stepNs) {
     track.steadyY += (track.speedY - track.steadyY) / share;
   }
   track.unseenNs = 0;
-  ++track.hits;
+  countUp(track.hits);
   learnLook(index);
 }
 

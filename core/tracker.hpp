@@ -177,10 +177,20 @@ struct Majority {
 /// For so long something may have stopped behind others without being seen.
 inline constexpr int64_t kHeldNs = 200'000'000;
 
+/// What a tracker's successor must know: which objects readers take to be there, and the next id.
+struct TrackerLegacy {
+  std::vector<uint64_t> alive;  ///< Sorted.
+  uint64_t nextId = 1;
+};
+
 class Tracker {
  public:
-  /// Ends all tracks; the next update's events tell. Also forgets the scene's scale if isNewScene.
-  void reset(bool isNewScene);
+  /// Ends all tracks; the next update's events tell. The scene's scale stays.
+  void reset();
+  /// As of the last takeEvents(), whatever has become of the tracker since.
+  [[nodiscard]] TrackerLegacy bequeath() noexcept;
+  /// Goes on after another tracker, whose objects end with the next update's events.
+  void inherit(TrackerLegacy&& legacy) noexcept;
   /// A frame that shows nothing: tracks move on as they are expected to.
   void predict(int64_t stepNs, const TrackerParams& params);
   void update(const Evidence& evidence, std::span<const Group> groups, int64_t stepNs,
@@ -189,7 +199,9 @@ class Tracker {
   [[nodiscard]] const std::vector<Track>& tracks() const { return tracks_; }
   /// Of each cell of the evidence: 1 + index of the track, 0 = none.
   [[nodiscard]] const std::vector<uint16_t>& owner() const { return owner_; }
-  [[nodiscard]] const std::vector<Event>& events() const { return events_; }
+  /// The events of the last update, which are told once; ends what they began and ended. Adds
+  /// `isAnotherScene` as an event.
+  void takeEvents(bool isAnotherScene, std::vector<Event>& out);
   /// How far a track will move in the next `stepNs`, in pixels; camera: in 1/16 px meanwhile.
   [[nodiscard]] static Point expectedShift(const Track& track, Point camera, int64_t stepNs);
   /// Whether its portrait tells where it is.
@@ -272,7 +284,8 @@ class Tracker {
 
   std::vector<Track> tracks_;
   std::vector<Event> events_;
-  std::vector<uint64_t> ended_;  ///< By a reset, not told yet.
+  TrackerLegacy told_;    ///< As of the last takeEvents().
+  bool endsAll_ = false;  ///< By a reset: the end of all that were told is to be told.
   SceneScale scale_;
   Clutter clutter_;
   uint64_t nextId_ = 1;

@@ -3,6 +3,7 @@
 #include "core/tracker.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace rg {
 namespace {
@@ -52,6 +53,31 @@ void Tracker::tellCompany() {
     tell(EventKind::Merge, name, is, was);
     tell(EventKind::Split, name, was, is);
   }
+}
+
+void Tracker::takeEvents(bool isAnotherScene, std::vector<Event>& out) {
+  if (isAnotherScene) events_.push_back({EventKind::SceneChanged, {}});
+  std::vector<uint64_t>& alive = told_.alive;
+  alive.reserve(alive.size() + events_.size());
+  // Nothing fails from here on.
+  for (const Event& event : events_) {
+    if (event.kind == EventKind::ObjectNew) alive.push_back(event.ids.front());
+    if (event.kind == EventKind::ObjectEnd) std::erase(alive, event.ids.front());
+  }
+  std::sort(alive.begin(), alive.end());
+  told_.nextId = nextId_;
+  events_.swap(out);
+  events_.clear();
+}
+
+TrackerLegacy Tracker::bequeath() noexcept {
+  return std::exchange(told_, {});
+}
+
+void Tracker::inherit(TrackerLegacy&& legacy) noexcept {
+  told_ = std::move(legacy);
+  nextId_ = told_.nextId;
+  endsAll_ = true;
 }
 
 }  // namespace rg

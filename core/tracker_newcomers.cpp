@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The foreground that no track explains: noise, a new object, or one that was lost.
+#include "core/frame_count.hpp"
 #include "core/pixel.hpp"
 #include "core/tracker.hpp"
 
@@ -286,7 +287,7 @@ void Tracker::comeBack(const Evidence& e, Track& track, const Newcomer& newcomer
   track.foot = static_cast<int32_t>(foot);
   track.isSeen = true;
   track.unseenNs = 0;
-  ++track.hits;
+  countUp(track.hits);
 }
 
 /// The object that a newcomer comes out of: the one that it touches, or whose place it overlaps

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // What becomes of tracks: their size, their state, their end, whom they share a blob with.
+#include "core/frame_count.hpp"
 #include "core/pixel.hpp"
 #include "core/tracker.hpp"
 
@@ -49,7 +50,10 @@ void Tracker::watchEntry(Track& track, const Sighting& s) const {
   if (!track.isSeen || !s.isSole || !isAtSide || isAtEnd) return;
   const int32_t height = box.height * kUnit;
   const bool hasStayed = 8 * std::abs(height - track.entryHeight) <= track.entryHeight;
-  track.entryFrames = hasStayed ? track.entryFrames + 1 : 0;
+  if (hasStayed)
+    countUp(track.entryFrames);
+  else
+    track.entryFrames = 0;
   if (!hasStayed) track.entryHeight = height;
 }
 
@@ -107,7 +111,7 @@ void Tracker::learnSize(size_t index, int64_t stepNs, const Evidence& e) {
   track.sway = static_cast<uint16_t>(mix(track.sway, std::min<int64_t>(change, 256), 7));
   track.size.width = mix(track.size.width, int64_t{s.box.width} * kUnit, weight);
   track.size.height = mix(track.size.height, int64_t{s.box.height} * kUnit, weight);
-  ++track.sizeSamples;
+  countUp(track.sizeSamples);
   if (s.boxCells > 0) {
     const int64_t fill = std::clamp<int64_t>(int64_t{s.cells} * 256 / s.boxCells, 64, 256);
     track.fill = static_cast<uint16_t>(mix(track.fill, fill, 7));
@@ -318,8 +322,9 @@ bool Tracker::isLeaving(const Track& track) const {
 /// States of all tracks; ends those that are gone and says so.
 void Tracker::settle(int64_t stepNs, const TrackerParams& params) {
   clutter_.age(stepNs);
-  for (const uint64_t id : ended_) events_.push_back({EventKind::ObjectEnd, {id}});
-  ended_.clear();
+  if (endsAll_)
+    for (const uint64_t id : told_.alive) events_.push_back({EventKind::ObjectEnd, {id}});
+  endsAll_ = false;
   trackIndex_.assign(tracks_.size(), 0);
   size_t kept = 0;
   const size_t count = tracks_.size();

@@ -42,5 +42,14 @@ TEST(Clutter, TakesAnyArea) {
   EXPECT_EQ(clutter.leastPx(), int64_t{1} << 31);
 }
 
+TEST(Clutter, NoStepIsTooLongOrTooShort) {
+  Clutter clutter;
+  for (int i = 0; i < 20; ++i) clutter.learn(100);
+  for (const int64_t step : {INT64_MIN, int64_t{-1}, int64_t{249'999'999}}) clutter.age(step);
+  EXPECT_EQ(clutter.leastPx(), 128);
+  for (int i = 0; i < 3; ++i) clutter.age(INT64_MAX);
+  EXPECT_EQ(clutter.leastPx(), 0);
+}
+
 }  // namespace
 }  // namespace rg

@@ -51,6 +51,12 @@ OwnMotion gains(int64_t units) {
   return {{3, 0}, units * kGainUnit};
 }
 
+TEST(GroundMerge, WithoutRegionsTheGroundHasNoGroup) {
+  Row row({});
+  EXPECT_THAT(row.groups(), ElementsAre());
+  EXPECT_EQ(row.ground, UINT32_MAX);
+}
+
 TEST(GroundMerge, WhatMovesIsPartedFromTheGround) {
   Row row({{}, gains(500), {}});
   EXPECT_THAT(row.groups(), ElementsAre(0, 1, 0));

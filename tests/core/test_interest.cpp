@@ -58,6 +58,34 @@ TEST(Interest, NamesWhatItCanNotRead) {
   }
 }
 
+TEST(Interest, BoundsThePointsOfAllPolygonsTogether) {
+  const auto textOf = [](size_t polygons, size_t points) {
+    std::string text;
+    for (size_t i = 0; i < polygons; ++i) {
+      for (size_t k = 0; k < points; ++k) text += k % 2 == 0 ? "0,0.25 " : "1,0.75 ";
+      text += i % 2 == 0 ? ";" : "; exclude ";
+    }
+    return text.substr(0, text.find_last_of(';'));
+  };
+  EXPECT_TRUE(parsePolygons(textOf(1, kMostInterestPoints)));
+  EXPECT_TRUE(parsePolygons(textOf(kMostInterestPoints / 4, 4)));
+  for (const std::string& text :
+       {textOf(1, kMostInterestPoints + 1), textOf(kMostInterestPoints / 4 + 1, 4),
+        "0,0 1,0 1,1" + std::string(kMostInterestBytes, ' ')}) {
+    const auto polygons = parsePolygons(text);
+    ASSERT_FALSE(polygons);
+    EXPECT_NE(polygons.error().message.find("name it as mask"), std::string::npos);
+  }
+}
+
+TEST(Interest, QuotesTheBeginningOfALongText) {
+  std::string text = "0,0 1,1 ";
+  for (int i = 0; i < 1000; ++i) text += "\u00e4";
+  const std::string message = parsePolygons(text).error().message;
+  EXPECT_LT(message.size(), 300u);
+  EXPECT_NE(message.find("\u00e4... is no area"), std::string::npos) << message;
+}
+
 /// A square that appears on a wall whose left half only is of interest.
 class InterestInTheStages : public ::testing::TestWithParam<BackgroundMethod> {
  protected:

@@ -26,7 +26,7 @@ Graph chainOf(std::initializer_list<Colour> colours) {
 
 TEST(MotionConsensus, AVectorSpreadsAlongAChainOfUnsureRegions) {
   const Graph graph = chainOf({kGrey, kGrey, kGrey, kGrey});
-  const OwnMotion own[] = {{{512, -256}, kSure}, {{-3000, 900}, {}}, {{77, 4000}, {}}, {{}, {}}};
+  const SeenMotion own[] = {{{512, -256}, kSure}, {{-3000, 900}, {}}, {{77, 4000}, {}}, {{}, {}}};
   MotionConsensus consensus;
   const auto priors = consensus.run(graph, own, Executor(1));
   for (size_t i = 1; i < 4; ++i) {
@@ -38,7 +38,7 @@ TEST(MotionConsensus, AVectorSpreadsAlongAChainOfUnsureRegions) {
 
 TEST(MotionConsensus, TheNeighbourOfOneColourCountsMost) {
   const Graph graph = chainOf({kGrey, kGrey, kRed});
-  const OwnMotion own[] = {{{512, 0}, kSure}, {{0, 0}, {}}, {{-2048, 0}, kSure}};
+  const SeenMotion own[] = {{{512, 0}, kSure}, {{0, 0}, {}}, {{-2048, 0}, kSure}};
   MotionConsensus consensus;
   EXPECT_NEAR(consensus.run(graph, own, Executor(1))[1].at.x, 512, 32);
 }
@@ -47,7 +47,7 @@ TEST(MotionConsensus, TheVectorThatMostAgreeOnCountsAndNoMeanOfAll) {
   Graph graph;
   graph.regions.resize(4);
   graph.arcs = {{1, 2, 20, 0}, {1, 3, 20, 0}, {1, 4, 20, 0}};
-  const OwnMotion own[] = {
+  const SeenMotion own[] = {
       {{0, 0}, {}}, {{512, 0}, kSure}, {{500, 0}, kSure}, {{-4000, 4000}, kSure}};
   MotionConsensus consensus;
   const MotionPrior prior = consensus.run(graph, own, Executor(1))[0];
@@ -58,7 +58,7 @@ TEST(MotionConsensus, TheVectorThatMostAgreeOnCountsAndNoMeanOfAll) {
 TEST(MotionConsensus, ARegionWithoutNeighboursHasNoPrior) {
   Graph graph;
   graph.regions.resize(2);
-  const OwnMotion own[] = {{{512, 0}, kSure}, {{}, {}}};
+  const SeenMotion own[] = {{{512, 0}, kSure}, {{}, {}}};
   MotionConsensus consensus;
   for (const MotionPrior& prior : consensus.run(graph, own, Executor(1)))
     EXPECT_EQ(prior.weight, 0);

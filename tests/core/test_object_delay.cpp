@@ -111,6 +111,44 @@ TEST(ObjectDelay, WhatDoesNotComeBackInTimeIsAsItWasPredicted) {
   EXPECT_EQ(out[1]->objects[0].box.x, 40);
 }
 
+TEST(ObjectDelay, ATimeThatStandsStillHoldsNothingForEver) {
+  for (const int64_t time : {int64_t{0}, INT64_MAX, INT64_MIN}) {
+    ObjectDelay delay;
+    for (int i = 0; i < 100; ++i) {
+      delay.push(frameOf({objectAt(1, ObjectState::Tracked, i)}), time);
+      while (delay.pop(5 * kStepNs)) {
+      }
+      EXPECT_LE(delay.count(), 5u);
+    }
+    EXPECT_EQ(delay.count(), 5u);
+  }
+}
+
+TEST(ObjectDelay, AJumpOverAllOfTimeReleasesWhatWasHeldBeforeIt) {
+  ObjectDelay delay;
+  for (const int64_t time : {INT64_MIN, INT64_MIN + kStepNs, INT64_MAX})
+    delay.push(frameOf({}), time);
+  EXPECT_TRUE(delay.pop(2 * kStepNs));
+  EXPECT_TRUE(delay.pop(2 * kStepNs));
+  EXPECT_FALSE(delay.pop(2 * kStepNs));
+  delay.push(frameOf({}), INT64_MIN);
+  EXPECT_FALSE(delay.pop(2 * kStepNs));
+  EXPECT_EQ(delay.count(), 2u);
+}
+
+TEST(ObjectDelay, AHiddenObjectLiesOnTheWayHoweverLongThatTakes) {
+  ObjectDelay delay;
+  delay.push(frameOf({objectAt(7, ObjectState::Tracked, 0)}), INT64_MIN);
+  delay.push(frameOf({objectAt(7, ObjectState::Lost, 9, 0)}), 0);
+  delay.push(frameOf({objectAt(7, ObjectState::Tracked, 1000)}), INT64_MAX);
+  ASSERT_TRUE(delay.popAny());
+  const auto hidden = delay.popAny();
+  EXPECT_EQ(hidden->objects[0].state, ObjectState::Occluded);
+  // The time between is more than can be told: half of it has passed at the end of what can.
+  EXPECT_GE(hidden->objects[0].box.x, 500);
+  EXPECT_LE(hidden->objects[0].box.x, 1000);
+}
+
 TEST(ObjectDelay, SourcesStayAsTheyWere) {
   const auto first = frameOf({objectAt(7, ObjectState::New, 1)});
   delayed({first, frameOf({objectAt(7, ObjectState::Tracked, 2)}, {{EventKind::ObjectNew, {7}}})},

@@ -48,6 +48,22 @@ TEST(Pieces, OwnedCellsAreNoPieces) {
   EXPECT_THAT(cellsOfPieces(e, owner), ElementsAre(3, 3));
 }
 
+TEST(Pieces, AScratchServesGridsOfAnySize) {
+  const Evidence wide = drawn({"#..#..#..#", "..........", "#########."});
+  const Evidence tall = drawn({"##", "..", "##", "..", "##", "..", "##", ".#"});
+  const Evidence tiny = drawn({"#"});
+  PieceScratch scratch;
+  std::vector<Piece> pieces;
+  for (const Evidence* e : {&wide, &tall, &tiny, &wide, &tiny, &tall}) {
+    findPieces(*e, {}, scratch, pieces);
+    PieceScratch fresh;
+    std::vector<Piece> expected;
+    findPieces(*e, {}, fresh, expected);
+    EXPECT_EQ(scratch.label, fresh.label);
+    EXPECT_EQ(pieces.size(), expected.size());
+  }
+}
+
 /// Each row of the labels that cutPieces leaves, a digit a cell.
 std::vector<std::string> cutRows(const std::vector<std::string>& rows) {
   const Evidence e = drawn(rows);

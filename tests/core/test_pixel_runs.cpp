@@ -147,7 +147,7 @@ TEST(PixelRuns, OfAlikeColoursAreThoseOfAFloodCutIntoTiles) {
     });
     for (const auto& [number, area] : areas) cut += area > kMostArea;
     const Borders right = bordersOf(numbers, [](Point, Point) { return true; });
-    ColourPlanes planes;
+    ColourGrid planes;
     planes.size = size;
     planes.colours = {grey, grey, grey};
     test::forEachTargetAndThreads([&](const std::shared_ptr<const Executor>& executor) {

@@ -92,6 +92,18 @@ TEST(Portrait, AWholeThingIsFoundWhereItIs) {
   EXPECT_EQ(match.share(), 256u);
 }
 
+/// The cost of being elsewhere divides by the size's square and by the time: here by 2^65.
+TEST(Portrait, OfAWholeLargeFrameIsFoundAfterAnHour) {
+  Stage stage({120, 90});
+  Portrait portrait = learntAt(stage, {40, 30});
+  portrait.sizePx = {8192, 4096};
+  stage.paint(thingAt({43, 28}));
+  PortraitScratch scratch;
+  const PortraitMatch match =
+      findPortrait(portrait, stage.scene(), {{40, 30}, {10, 10}, 32768, {}}, scratch);
+  EXPECT_EQ(placeOf(match), (Point{3, -2}));
+}
+
 TEST(Portrait, TheHalfThatASceneLeavesTellsThePlace) {
   Stage stage({120, 90});
   const Portrait portrait = learntAt(stage, {40, 30});
