@@ -89,13 +89,14 @@ constexpr std::array kProperties{
     property<Settings, &Settings::mask>(
         "mask",
         "Path of a PNG picture, white where to look: nothing is foreground elsewhere, nor reported "
-        "by any element. Fitted to the frame; empty = look everywhere"),
+        "by any element. Fitted to the frame; empty = look everywhere. A regular file, or a link "
+        "to one, of 35 million pixels at most; read when it is set or at the start"),
     property<Settings, &Settings::areasOfInterest>(
         "areas-of-interest",
         "Polygons to look in, and with the word exclude in front, to leave out. Points are x,y as "
         "shares of width and height from 0 to 1, separated by blanks, polygons by ';': "
         "\"0,0.5 1,0.5 1,1 0,1; exclude 0.4,0.6 0.5,0.6 0.5,0.7\". Holds together with mask; "
-        "empty = look everywhere"),
+        "empty = look everywhere. At most 1000 points in all"),
     enumProperty<Settings, &Settings::search>(
         "search",
         "Where method=frame-difference looks. Both find the same things; areas looks at less of "

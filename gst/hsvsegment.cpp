@@ -111,8 +111,8 @@ class HsvSegment final : public PixelFilter<Settings, SegmentationStage> {
   Result<bool> followHue(const Settings& settings) {
     std::pair text{settings.backgroundHue, settings.objectHue};
     if (text == hueText_) return true;
+    const auto rules = parseHueRules(text.first, text.second);
     hueText_ = std::move(text);
-    const auto rules = parseHueRules(hueText_.first, hueText_.second);
     if (!rules) return rules.error();
     hue_ = *rules;
     return true;

@@ -12,6 +12,10 @@
  * (ids), regiongraph-background-motion (moving, dx, dy: pixels since the previous frame) and
  * regiongraph-scene-changed.
  *
+ * Where tens of thousands of regions are asked for and one touches most of the others, the search
+ * for the best groups is ended early, so that a frame's time stays in proportion to its regions;
+ * the first such frame causes a warning.
+ *
  * |[
  * gst-launch-1.0 -m filesrc location=clip.avi ! decodebin ! videoconvert ! bgremove ! hsvsegment !
  *   srg ! prmmotion ! mrfmerge ! regionwrite location=objects.jsonl ! fakesink
@@ -32,6 +36,8 @@
 
 namespace rg {
 namespace {
+
+constexpr int kManyStanding = 10;
 
 struct Settings : StageSettings, ObjectParams {
   double latencyS = 0.0;
@@ -75,7 +81,8 @@ constexpr std::array kProperties{
         "Seconds for which frames are held back, so that an object is told from when it was first "
         "seen instead of from when it was confirmed, and is placed where it must have been while "
         "it "
-        "was hidden. Reported to the pipeline",
+        "was hidden. Reported to the pipeline. At most 600 frames are held, and 2 GiB with what is "
+        "known of them",
         0, 10, Mutable::Ready),
     threadsProperty<Settings>(),
 };
@@ -87,43 +94,81 @@ class MrfMerge final : public ChainedFilter<Settings, ObjectStage, Motion> {
 
   bool start() override {
     latency_ = static_cast<GstClockTime>(std::llround(currentSettings().latencyS * 1e9));
+    hasToldCut_ = false;
     return ChainedFilter::start();
   }
   /// Ends of objects are told at once: after a reset or at the end there may be no next frame.
   void reset(Reset what) override {
-    if (what != Reset::Gap) sendHeld();
+    if (what != Reset::Gap) {
+      sendHeld();
+      dropHeld();
+    }
     ChainedFilter::reset(what);
     if (what != Reset::Gap) messages_.endAll();
   }
   void endOfStream() override { messages_.endAll(); }
 
   GstClockTime latency() override { return latency_; }
-  void hold(GstBuffer* buffer) override { held_.push_back(buffer); }
+  void hold(GstBuffer* buffer) override { held_.back().reset(buffer); }
   GstBuffer* release(bool isEnd) override {
-    auto objects = isEnd ? delay_.popAny() : delay_.pop(static_cast<int64_t>(latency()));
+    const bool isFull = delay_.count() > mostHeld();
+    auto objects = delay_.pop(static_cast<int64_t>(latency()));
+    if (!objects && isFull) tellFull();
+    if (!objects && (isEnd || isFull)) objects = delay_.popAny();
     if (!objects) return nullptr;
-    GstBuffer* buffer = held_.front();
+    HeldBuffer buffer = std::move(held_.front());
     held_.pop_front();
-    publish(buffer, std::move(objects));
-    return buffer;
+    if (buffer) publish(buffer.get(), std::move(objects));
+    return buffer.release();
   }
   void dropHeld() override {
     delay_.clear();
-    for (GstBuffer* buffer : held_) gst_buffer_unref(buffer);
     held_.clear();
   }
 
  private:
+  struct Unref {
+    void operator()(GstBuffer* buffer) const { gst_buffer_unref(buffer); }
+  };
+  using HeldBuffer = std::unique_ptr<GstBuffer, Unref>;
+
   void handle(const FilterFrame& frame, std::shared_ptr<const Motion> motion,
               const Settings& settings) override {
     info_ = frame.info;
     auto objects = motion
                        ? orSkipped(frame, stage().process(std::move(motion), settings, frame.time))
                        : skipped<Objects>(frame);
+    if (objects->isCutShort && !std::exchange(hasToldCut_, true))
+      postWarning(
+          "So many small regions touch a large one that groups are not searched to the end; a "
+          "larger min-area or similarity of hsvsegment, or a smaller max-regions, makes fewer.");
     if (latency() > 0)
-      delay_.push(std::move(objects), frame.time.ns);
+      delay(std::move(objects), frame.time.ns);
     else
       publish(frame.buffer, std::move(objects));
+  }
+
+  /// Makes the place for hold() too: each result has one, whatever fails.
+  void delay(std::shared_ptr<const Objects> objects, int64_t timeNs) {
+    held_.emplace_back();
+    try {
+      delay_.push(std::move(objects), timeNs);
+    } catch (...) {
+      held_.pop_back();
+      throw;
+    }
+    standing_ = delay_.count() > 1 && timeNs == lastNs_ ? standing_ + 1 : 0;
+    lastNs_ = timeNs;
+    if (standing_ == kManyStanding)
+      warnOnce(
+          "The time stamps of the frames stand still: latency counts them as 40 ms each. "
+          "Put an element in front that sets them.");
+  }
+
+  void tellFull() {
+    warnOnce("Frames leave before the latency has passed, since no more than " +
+             std::to_string(mostHeld()) +
+             " of this size are held: lower latency, the framerate or the frames' size.");
   }
 
   void publish(GstBuffer* buffer, std::shared_ptr<const Objects> objects) {
@@ -133,10 +178,13 @@ class MrfMerge final : public ChainedFilter<Settings, ObjectStage, Motion> {
   }
 
   ObjectMessages messages_;
-  GstVideoInfo info_{};  ///< Of the frames that are held.
+  bool hasToldCut_ = false;  ///< Since the element started.
+  GstVideoInfo info_{};      ///< Of the frames that are held.
   std::atomic<GstClockTime> latency_ = 0;
   ObjectDelay delay_;
-  std::deque<GstBuffer*> held_;  ///< Owned; each belongs to a result in `delay_`.
+  std::deque<HeldBuffer> held_;  ///< Each belongs to a result in `delay_`.
+  int64_t lastNs_ = 0;           ///< Of the frame before.
+  int standing_ = 0;             ///< Frames in a row whose time is that of the one before.
 };
 
 const Settings kDefaults;

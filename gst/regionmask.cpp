@@ -19,12 +19,16 @@
 #include "gst/support/guarded.hpp"
 #include "gst/support/mask_painter.hpp"
 #include "gst/support/properties.hpp"
+#include "gst/support/video_map.hpp"
 
 #include <gst/base/gstbasetransform.h>
 #include <gst/video/video.h>
 
 #include <array>
+#include <memory>
 #include <mutex>
+#include <new>
+#include <optional>
 #include <utility>
 
 namespace rg {
@@ -64,21 +68,31 @@ constexpr std::array kProperties{
 };
 
 struct RegionMask {
-  std::mutex settingsMutex;  ///< Protects `settings`; nothing is called while it is held.
+  std::mutex settingsMutex;  ///< Protects the two below; nothing is called while it is held.
   Settings settings;
+  std::optional<MaskSource> running;  ///< The source since the start: the output's format is its.
   GstVideoInfo output{};
   bool isFirst = true;
   bool hasWarned = false;
 
   [[nodiscard]] MaskSource source() {
     const std::lock_guard lock(settingsMutex);
-    return settings.source;
+    return running.value_or(settings.source);
+  }
+  void start() {
+    const std::lock_guard lock(settingsMutex);
+    running = settings.source;
+  }
+  void stop() {
+    const std::lock_guard lock(settingsMutex);
+    running.reset();
   }
 };
 
+/// What is in the instance itself needs no memory of its own: to make one can't fail.
 struct Instance {
   GstBaseTransform parent;
-  RegionMask* mask;
+  RegionMask mask;
 };
 
 GstDebugCategory* category = nullptr;
@@ -86,7 +100,7 @@ gpointer parentClass = nullptr;
 #define GST_CAT_DEFAULT category
 
 RegionMask& maskOf(gpointer instance) {
-  return *reinterpret_cast<Instance*>(instance)->mask;
+  return reinterpret_cast<Instance*>(instance)->mask;
 }
 
 void setProperty(GObject* object, guint id, const GValue* value, GParamSpec*) {
@@ -102,7 +116,7 @@ void getProperty(GObject* object, guint id, GValue* value, GParamSpec*) {
 }
 
 void finalize(GObject* object) {
-  delete reinterpret_cast<Instance*>(object)->mask;
+  std::destroy_at(&maskOf(object));
   G_OBJECT_CLASS(parentClass)->finalize(object);
 }
 
@@ -142,7 +156,8 @@ GstCaps* transformCaps(GstBaseTransform* element, GstPadDirection from, GstCaps*
 
 gboolean setCaps(GstBaseTransform* element, GstCaps*, GstCaps* masks) {
   RegionMask& mask = maskOf(element);
-  if (!gst_video_info_from_caps(&mask.output, masks)) return FALSE;
+  if (!gst_video_info_from_caps(&mask.output, masks) || !acceptsSize(element, mask.output))
+    return FALSE;
   mask.isFirst = true;
   mask.hasWarned = false;
   return TRUE;
@@ -206,13 +221,12 @@ GstFlowReturn handleMissing(GstBaseTransform* element, MaskSource source) {
 GstFlowReturn transform(GstBaseTransform* element, GstBuffer* in, GstBuffer* out) {
   RegionMask& mask = maskOf(element);
   const MaskSource source = mask.source();
-  GstVideoFrame video;
-  if (!gst_video_frame_map(&video, &mask.output, out, GST_MAP_WRITE)) {
+  VideoMap video(out, mask.output, GST_MAP_WRITE);
+  if (!video.frame()) {
     GST_ELEMENT_ERROR(element, RESOURCE, WRITE, ("The output buffer can't be mapped."), (nullptr));
     return GST_FLOW_ERROR;
   }
-  const bool wasThere = paintMask(source, in, &video);
-  gst_video_frame_unmap(&video);
+  const bool wasThere = paintMask(source, in, video.frame());
   const GstFlowReturn flow = wasThere ? GST_FLOW_OK : handleMissing(element, source);
   mask.isFirst = false;
   return flow;
@@ -255,6 +269,14 @@ void initClass(gpointer klass, gpointer) {
 
   auto* transformClass = GST_BASE_TRANSFORM_CLASS(klass);
   transformClass->passthrough_on_same_caps = FALSE;
+  transformClass->start = [](GstBaseTransform* self) -> gboolean {
+    maskOf(self).start();
+    return TRUE;
+  };
+  transformClass->stop = [](GstBaseTransform* self) -> gboolean {
+    maskOf(self).stop();
+    return TRUE;
+  };
   transformClass->transform_caps = transformCaps;
   transformClass->set_caps = setCaps;
   transformClass->transform_size = transformSize;
@@ -272,7 +294,7 @@ GType registerMask() {
   info.class_init = initClass;
   info.instance_size = sizeof(Instance);
   info.instance_init = [](GTypeInstance* instance, gpointer) {
-    reinterpret_cast<Instance*>(instance)->mask = new RegionMask;
+    new (&maskOf(instance)) RegionMask;
   };
   return g_type_register_static(GST_TYPE_BASE_TRANSFORM, "GstRegionMask", &info,
                                 static_cast<GTypeFlags>(0));

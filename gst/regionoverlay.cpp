@@ -23,6 +23,7 @@
 #include "gst/overlay/painter.hpp"
 #include "gst/support/mapped_frame.hpp"
 #include "gst/support/stage_filter.hpp"
+#include "gst/support/video_map.hpp"
 
 #include <array>
 
@@ -162,12 +163,11 @@ class RegionOverlay final : public StageFilter {
               GstVideoOverlayComposition* drawing) {
     if (const MappedFrame checked(frame.buffer, frame.info); !checked.frame())
       return warnOnce("A frame was passed on as it came: " + checked.frame().error().message + ".");
-    GstVideoFrame pixels;
-    if (!gst_video_frame_map(&pixels, &frame.info, frame.buffer, GST_MAP_READWRITE))
+    VideoMap pixels(frame.buffer, frame.info, GST_MAP_READWRITE);
+    if (!pixels.frame())
       return warnOnce("A frame was passed on as it came: its memory can't be written.");
-    if (blackens) blacken(results, &pixels);
-    if (drawing) gst_video_overlay_composition_blend(drawing, &pixels);
-    gst_video_frame_unmap(&pixels);
+    if (blackens) blacken(results, pixels.frame());
+    if (drawing) gst_video_overlay_composition_blend(drawing, pixels.frame());
   }
 
   void blacken(const Results& results, GstVideoFrame* pixels) {

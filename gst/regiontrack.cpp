@@ -18,7 +18,9 @@
 #include "gst/support/properties.hpp"
 
 #include <array>
+#include <memory>
 #include <mutex>
+#include <new>
 #include <utility>
 
 namespace rg {
@@ -56,15 +58,16 @@ struct RegionTrack {
   std::array<GstElement*, kChildren.size()> children{};  ///< The bin owns them.
 };
 
+/// What is in the instance itself needs no memory of its own: to make one can't fail.
 struct Instance {
   GstBin parent;
-  RegionTrack* track;
+  RegionTrack track;
 };
 
 gpointer parentClass = nullptr;
 
 RegionTrack& trackOf(gpointer instance) {
-  return *reinterpret_cast<Instance*>(instance)->track;
+  return reinterpret_cast<Instance*>(instance)->track;
 }
 
 void setProperty(GObject* object, guint id, const GValue* value, GParamSpec*) {
@@ -84,7 +87,7 @@ void getProperty(GObject* object, guint id, GValue* value, GParamSpec*) {
 }
 
 void finalize(GObject* object) {
-  delete reinterpret_cast<Instance*>(object)->track;
+  std::destroy_at(&trackOf(object));
   G_OBJECT_CLASS(parentClass)->finalize(object);
 }
 
@@ -97,17 +100,16 @@ void addGhostPad(GstElement* bin, GstElement* child, const char* name) {
 }
 
 void initInstance(GTypeInstance* instance, gpointer) {
-  auto* track = new RegionTrack;
-  reinterpret_cast<Instance*>(instance)->track = track;
+  RegionTrack& track = *new (&trackOf(instance)) RegionTrack;
   auto* bin = reinterpret_cast<GstElement*>(instance);
   for (size_t i = 0; i < kChildren.size(); ++i) {
-    track->children[i] =
+    track.children[i] =
         GST_ELEMENT(g_object_new(kChildren[i].type(), "name", kChildren[i].name, nullptr));
-    gst_bin_add(GST_BIN(bin), track->children[i]);
-    if (i > 0) gst_element_link(track->children[i - 1], track->children[i]);
+    gst_bin_add(GST_BIN(bin), track.children[i]);
+    if (i > 0) gst_element_link(track.children[i - 1], track.children[i]);
   }
-  addGhostPad(bin, track->children.front(), "sink");
-  addGhostPad(bin, track->children.back(), "src");
+  addGhostPad(bin, track.children.front(), "sink");
+  addGhostPad(bin, track.children.back(), "src");
 }
 
 void initClass(gpointer klass, gpointer) {

@@ -10,9 +10,9 @@ packages=(
   libgstreamer1.0-dev libgstreamer-plugins-base1.0-dev libglib2.0-dev
   libopencv-dev libhwy-dev libtbb-dev libpng-dev
   # checks and tests
-  clang-format clang-tidy libgtest-dev libgmock-dev binutils
+  clang-format clang-tidy libgtest-dev libgmock-dev nlohmann-json3-dev binutils locales
   python3 python3-numpy python3-opencv python3-scipy python3-jsonschema
-  python3-gi gir1.2-gstreamer-1.0 gir1.2-gst-plugins-base-1.0
+  python3-gi gir1.2-gstreamer-1.0 gir1.2-gst-plugins-base-1.0 gir1.2-gst-rtsp-server-1.0
   # running pipelines
   gstreamer1.0-tools gstreamer1.0-plugins-base gstreamer1.0-plugins-good gstreamer1.0-plugins-bad
   gstreamer1.0-libav

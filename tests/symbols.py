@@ -5,7 +5,9 @@
 usage: symbols.py PLUGIN LIBRARY HEADER...
 
 PLUGIN exports gst_plugin_* and nothing else. LIBRARY exports the functions that the HEADERs declare
-for applications and for the plugin, each named gst_*region*, and nothing else. Exits 1 otherwise.
+for applications and for the plugin, each named gst_*region*, and nothing else. Neither asks for the
+time of day, chance, or the user's locale: results depend on frames and their times alone. Exits 1
+otherwise.
 """
 import pathlib
 import re
@@ -13,12 +15,25 @@ import subprocess
 import sys
 
 
+CLOCKS_CHANCE_LOCALE = re.compile(
+    r'(clock_gettime|clock|time|gettimeofday|localtime(_r)?|g_get_(real|monotonic)_time|'
+    r'_ZNSt6chrono.*3nowEv|rand(_r)?|s?random(_r)?|[dlm]rand48|getrandom|g_random_.*|g_rand_.*|'
+    r'_ZNSt13random_device.*|setlocale|localeconv|strto(d|f|ld)|atof|v?sscanf)')
+
+
+def rows_of(library, which):
+    out = subprocess.run(['nm', '-D', which, '--without-symbol-versions', library],
+                         capture_output=True, text=True, check=True).stdout
+    return [line.split() for line in out.splitlines()]
+
+
 def exported(library):
     """Names of all dynamic symbols that the file defines; A is a version's own name."""
-    out = subprocess.run(['nm', '-D', '--defined-only', '--without-symbol-versions', library],
-                         capture_output=True, text=True, check=True).stdout
-    rows = [line.split() for line in out.splitlines()]
-    return {row[2] for row in rows if len(row) == 3 and row[1] != 'A'}
+    return {row[2] for row in rows_of(library, '--defined-only') if len(row) == 3 and row[1] != 'A'}
+
+
+def imported(library):
+    return {row[-1] for row in rows_of(library, '--undefined-only')}
 
 
 def declared(headers):
@@ -45,6 +60,8 @@ def main():
                  for name in sorted(public - library)]
     findings += [f'{sys.argv[2]}: exports {name}, which is not named gst_*region*'
                  for name in sorted(library) if not re.match(r'gst_.*region', name)]
+    findings += [f'{library}: asks for {name}' for library in sys.argv[1:3]
+                 for name in sorted(imported(library)) if CLOCKS_CHANCE_LOCALE.fullmatch(name)]
     print('\n'.join(findings + [
         f'symbols: plugin {len(plugin)}, library {len(library)}, {len(findings)} findings']))
     sys.exit(1 if findings else 0)

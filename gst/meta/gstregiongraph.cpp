@@ -14,8 +14,16 @@ using rg::Box;
 using rg::Colour;
 
 template <class Payload, class Meta>
+const std::shared_ptr<const Payload>& sharedResultOf(Meta* meta) {
+  return reinterpret_cast<const rg::ResultMeta<Payload>*>(meta)->result;
+}
+
+/// A meta that was added by its name only, not by an element, says what a skipped frame's says.
+template <class Payload, class Meta>
 const Payload& resultOf(Meta* meta) {
-  return *reinterpret_cast<const rg::ResultMeta<Payload>*>(meta)->result;
+  static const Payload kSkipped;
+  const auto& result = sharedResultOf<Payload>(meta);
+  return result ? *result : kSkipped;
 }
 
 GstRegionStatus publicStatus(rg::Status status) {
@@ -65,7 +73,7 @@ GstRegionStatus statusAndSize(const Payload& result, gint* width, gint* height) 
 template <class Payload, class T>
 gboolean mapPlane(const std::shared_ptr<const Payload>& owner, rg::ImageView<const T> pixels,
                   GstRegionPlane* plane, GError** error) {
-  if (owner->status == rg::Status::Skipped || pixels.size.isEmpty()) {
+  if (!owner || owner->status == rg::Status::Skipped || pixels.size.isEmpty()) {
     g_set_error_literal(error, GST_STREAM_ERROR, GST_STREAM_ERROR_FAILED,
                         "this frame was skipped, there are no pixels to map");
     return FALSE;
@@ -80,11 +88,6 @@ gboolean mapPlane(const std::shared_ptr<const Payload>& owner, rg::ImageView<con
             sizeof(T),       {}};
   plane->_private[0] = hold;
   return TRUE;
-}
-
-template <class Payload, class Meta>
-const std::shared_ptr<const Payload>& sharedResultOf(Meta* meta) {
-  return reinterpret_cast<const rg::ResultMeta<Payload>*>(meta)->result;
 }
 
 const rg::Object* objectAt(GstRegionObjectsMeta* meta, guint index) {
@@ -126,8 +129,8 @@ gboolean gst_region_foreground_meta_get_area(GstRegionForegroundMeta* meta, guin
 gboolean gst_region_foreground_meta_map(GstRegionForegroundMeta* meta, GstRegionPlane* plane,
                                         GError** error) {
   g_return_val_if_fail(meta && plane, FALSE);
-  const auto& result = sharedResultOf<rg::Foreground>(meta);
-  return mapPlane(result, result->mask.view(), plane, error);
+  return mapPlane(sharedResultOf<rg::Foreground>(meta), resultOf<rg::Foreground>(meta).mask.view(),
+                  plane, error);
 }
 
 GstRegionStatus gst_region_labels_meta_get_status(GstRegionLabelsMeta* meta, gint* width,
@@ -157,8 +160,8 @@ guint gst_region_labels_meta_get_n_regions(GstRegionLabelsMeta* meta) {
 gboolean gst_region_labels_meta_map(GstRegionLabelsMeta* meta, GstRegionPlane* plane,
                                     GError** error) {
   g_return_val_if_fail(meta && plane, FALSE);
-  const auto& result = sharedResultOf<rg::Labels>(meta);
-  return mapPlane(result, result->ids.view(), plane, error);
+  return mapPlane(sharedResultOf<rg::Labels>(meta), resultOf<rg::Labels>(meta).ids.view(), plane,
+                  error);
 }
 
 GstRegionStatus gst_region_graph_meta_get_status(GstRegionGraphMeta* meta, gint* width,
@@ -296,8 +299,8 @@ void gst_region_objects_meta_get_camera_motion(GstRegionObjectsMeta* meta, gdoub
 gboolean gst_region_objects_meta_map(GstRegionObjectsMeta* meta, GstRegionPlane* plane,
                                      GError** error) {
   g_return_val_if_fail(meta && plane, FALSE);
-  const auto& result = sharedResultOf<rg::Objects>(meta);
-  return mapPlane(result, result->slots.view(), plane, error);
+  return mapPlane(sharedResultOf<rg::Objects>(meta), resultOf<rg::Objects>(meta).slots.view(),
+                  plane, error);
 }
 
 void gst_region_plane_unmap(GstRegionPlane* plane) {

@@ -3,6 +3,7 @@
 
 #include "core/mapping.hpp"
 #include "core/text/names.hpp"
+#include "gst/support/foreign_enum.hpp"
 
 #include <algorithm>
 
@@ -75,8 +76,8 @@ void blacken(GstVideoFrame* frame, const Image<uint8_t>& keep) {
     for (int component = 0; component < 3; ++component) blackenFull(frame, component, keep, 0);
     return;
   }
-  const bool isFull =
-      GST_VIDEO_INFO_IS_GRAY(&info) || info.colorimetry.range == GST_VIDEO_COLOR_RANGE_0_255;
+  const bool isFull = GST_VIDEO_INFO_IS_GRAY(&info) ||
+                      numberIn(info.colorimetry.range) == GST_VIDEO_COLOR_RANGE_0_255;
   blackenFull(frame, 0, keep, isFull ? 0 : kLimitedBlack);
   if (!GST_VIDEO_INFO_IS_YUV(&info)) return;
   for (int component = 1; component < 3; ++component) blackenChroma(frame, component, keep);

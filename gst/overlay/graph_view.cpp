@@ -62,7 +62,9 @@ void drawRegionMotion(const Scene& scene, const FrameMap& map, Canvas& canvas) {
     if (motion.reliability == 0 || (motion.dx == 0 && motion.dy == 0)) continue;
     const Point from = centreOf(scene.graph->regions[i], map);
     const auto along = [&](int64_t shift) {
-      return static_cast<int>(static_cast<double>(shift) * frames / kMotionUnit);
+      constexpr double kFarPx = 1 << 16;  // A framerate of 90000/1 says nothing of the frames.
+      return static_cast<int>(
+          std::clamp(static_cast<double>(shift) * frames / kMotionUnit, -kFarPx, kFarPx));
     };
     canvas.arrow(from, {from.x + along(map.x(motion.dx)), from.y + along(map.y(motion.dy))},
                  colourOf(i + 1));

@@ -35,6 +35,12 @@ Box labelExtent(const Figure& figure, const Layout& layout) {
 
 }  // namespace
 
+void Painter::forget() {
+  trails_.clear();
+  composition_.reset();
+  pool_.drop();
+}
+
 void Painter::follow(const Objects& objects, int64_t nowNs, double trailLengthS) {
   trails_.advance(objects, nowNs, static_cast<int64_t>(trailLengthS * GST_SECOND));
 }

@@ -45,7 +45,8 @@ class Painter {
  public:
   /// The objects of a frame that has passed, drawn or not: trails go on.
   void follow(const Objects& objects, int64_t nowNs, double trailLengthS);
-  void forget() { trails_.clear(); }
+  /// Also drops a drawing that was begun and the memory for drawings.
+  void forget();
 
   /// Null where there is nothing to draw.
   [[nodiscard]] CompositionPtr paint(const Scene& scene, const Views& views);

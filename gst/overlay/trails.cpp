@@ -2,6 +2,7 @@
 #include "gst/overlay/trails.hpp"
 
 #include "core/text/names.hpp"
+#include "core/time.hpp"
 
 namespace rg::overlay {
 
@@ -39,11 +40,12 @@ void Trails::advance(const Objects& objects, int64_t nowNs, int64_t lengthNs) {
     trail.seenNs = nowNs;
     const int64_t stepNs = lengthNs / static_cast<int64_t>(kCapacity - 1);
     const auto& last = trail.ring[(trail.first + trail.count + kCapacity - 1) % kCapacity];
-    if (trail.count == 0 || nowNs - last.ns >= stepNs)
+    if (trail.count == 0 || timeBetween(last.ns, nowNs) >= stepNs)
       append(trail, {{object.centroidX, object.centroidY}, nowNs});
   }
-  for (auto& [id, trail] : trails_) forget(trail, nowNs - lengthNs);
-  std::erase_if(trails_, [&](const auto& entry) { return entry.second.seenNs < nowNs - lengthNs; });
+  const int64_t oldestNs = timeBetween(lengthNs, nowNs);
+  for (auto& [id, trail] : trails_) forget(trail, oldestNs);
+  std::erase_if(trails_, [&](const auto& entry) { return entry.second.seenNs < oldestNs; });
 }
 
 void Trails::copy(const Object& object, std::vector<Point>& out) const {

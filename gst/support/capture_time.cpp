@@ -13,7 +13,7 @@ std::optional<uint64_t> captureTimeOf(GstBuffer* buffer) {
   while (GstMeta* found = gst_buffer_iterate_meta_filtered(buffer, &state,
                                                            GST_REFERENCE_TIMESTAMP_META_API_TYPE)) {
     const auto* meta = reinterpret_cast<GstReferenceTimestampMeta*>(found);
-    if (gst_caps_get_size(meta->reference) == 0) continue;
+    if (!meta->reference || gst_caps_get_size(meta->reference) == 0) continue;
     const GstStructure* reference = gst_caps_get_structure(meta->reference, 0);
     if (gst_structure_has_name(reference, "timestamp/x-unix")) return meta->timestamp;
     if (gst_structure_has_name(reference, "timestamp/x-ntp") && meta->timestamp >= kNtpEpochNs)

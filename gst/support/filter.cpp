@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "gst/support/filter.hpp"
 
+#include "gst/support/foreign_enum.hpp"
+#include "gst/support/frame_hold.hpp"
 #include "gst/support/guarded.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #define RG_PIXEL_FORMATS "{ BGRx, RGBx, BGRA, RGBA, BGR, RGB, NV12, I420, GRAY8 }"
@@ -19,6 +22,8 @@ namespace {
 /// Larger frames are refused: labels and sums are sized for this many pixels (8K: 8192x4320).
 constexpr int64_t kMaxPixels = int64_t{8192} * 4320;
 
+/// GObject can't refuse to make an instance. Where there was no memory for the filter, the element
+/// has none: it keeps no property, and fails when it is started.
 struct Instance {
   GstBaseTransform parent;
   Filter* filter;
@@ -35,24 +40,56 @@ gpointer parentClass = nullptr;
 Class* classOf(gpointer instance) {
   return G_TYPE_INSTANCE_GET_CLASS(instance, 0, Class);
 }
-Filter& filterOf(gpointer instance) {
-  return *reinterpret_cast<Instance*>(instance)->filter;
+Filter* filterOf(gpointer instance) {
+  return reinterpret_cast<Instance*>(instance)->filter;
+}
+
+/// Runs the body of a vfunc with the element's filter; `failed` without one.
+template <class T, class Body>
+T withFilter(gpointer element, T failed, Body body) noexcept {
+  Filter* filter = filterOf(element);
+  return filter ? guarded(element, failed, [&] { return body(*filter); }) : failed;
 }
 
 }  // namespace
 
 /// The vfuncs; a struct so that it can be the filter's friend.
 struct FilterShell {
-  static void setProperty(GObject* object, guint id, const GValue* value, GParamSpec*) {
-    Filter& filter = filterOf(object);
-    const std::lock_guard lock(filter.settingsMutex());
-    classOf(object)->description->properties[id - 1].set(filter.settings(), value);
+  /// After an exception the element goes on as after a change of stream: whatever it left half done
+  /// is dropped.
+  template <class Body>
+  static auto orAnew(Filter& filter, Body body) {
+    try {
+      return body();
+    } catch (...) {
+      filter.clock_.restart();
+      filter.isDownstreamNew_ = true;
+      filter.dropHeld();
+      filter.reset(Reset::Stream);
+      throw;
+    }
+  }
+
+  static void setProperty(GObject* object, guint id, const GValue* value, GParamSpec* spec) {
+    Filter* filter = filterOf(object);
+    if (!filter) return;
+    try {
+      const std::lock_guard lock(filter->settingsMutex());
+      classOf(object)->description->properties[id - 1].set(filter->settings(), value);
+      return;
+    } catch (...) {  // Only a text needs memory.
+    }
+    GST_ELEMENT_WARNING(object, RESOURCE, SETTINGS,
+                        ("%s stays as it was: out of memory.", g_param_spec_get_name(spec)),
+                        (nullptr));
   }
 
   static void getProperty(GObject* object, guint id, GValue* value, GParamSpec*) {
-    Filter& filter = filterOf(object);
-    const std::lock_guard lock(filter.settingsMutex());
-    classOf(object)->description->properties[id - 1].get(filter.settings(), value);
+    const FilterDescription& about = *classOf(object)->description;
+    Filter* filter = filterOf(object);
+    if (!filter) return about.properties[id - 1].get(about.defaults, value);
+    const std::lock_guard lock(filter->settingsMutex());
+    about.properties[id - 1].get(filter->settings(), value);
   }
 
   static void finalize(GObject* object) {
@@ -61,38 +98,34 @@ struct FilterShell {
   }
 
   static gboolean start(GstBaseTransform* element) {
-    return guarded(element, FALSE, [&]() -> gboolean {
-      Filter& filter = filterOf(element);
+    if (!filterOf(element))
+      GST_ELEMENT_ERROR(element, RESOURCE, NO_SPACE_LEFT,
+                        ("There was no memory to make this element: free some, and make another."),
+                        (nullptr));
+    return withFilter(element, FALSE, [](Filter& filter) -> gboolean {
       filter.clock_ = {};
       filter.streamId_.clear();
       filter.hasCaps_ = false;
-      return filter.start();
+      const bool hasStarted = filter.start();
+      filter.wholeLatency_ = filter.latency();
+      return hasStarted;
     });
   }
 
   static gboolean stop(GstBaseTransform* element) {
-    return guarded(element, FALSE, [&]() -> gboolean {
-      filterOf(element).dropHeld();
-      filterOf(element).reset(Reset::Stream);
-      filterOf(element).stop();
+    return withFilter(element, FALSE, [](Filter& filter) -> gboolean {
+      filter.dropHeld();
+      filter.reset(Reset::Stream);
+      filter.stop();
       return TRUE;
     });
   }
 
   static gboolean setCaps(GstBaseTransform* element, GstCaps* caps, GstCaps*) {
-    return guarded(element, FALSE, [&]() -> gboolean {
-      Filter& filter = filterOf(element);
+    return withFilter(element, FALSE, [&](Filter& filter) -> gboolean {
       GstVideoInfo info;
       if (!gst_video_info_from_caps(&info, caps)) return FALSE;
-      const int64_t pixels = int64_t{GST_VIDEO_INFO_WIDTH(&info)} * GST_VIDEO_INFO_HEIGHT(&info);
-      if (pixels <= 0 || pixels > kMaxPixels) {
-        GST_ELEMENT_ERROR(
-            element, STREAM, FORMAT,
-            ("Frames of %dx%d are too large.", GST_VIDEO_INFO_WIDTH(&info),
-             GST_VIDEO_INFO_HEIGHT(&info)),
-            ("At most %" G_GINT64_FORMAT " pixels; put videoscale in front.", kMaxPixels));
-        return FALSE;
-      }
+      if (!acceptsSize(element, info)) return FALSE;
       if (!filter.hasCaps_ || !samePixels(filter.info_, info)) {
         filter.reset(Reset::Stream);
         filter.clock_.restart();
@@ -101,6 +134,7 @@ struct FilterShell {
       filter.info_ = info;
       filter.hasCaps_ = true;
       filter.isDownstreamNew_ = true;
+      filter.wholeLatency_ = latencyInFrames(filter.latency(), info);
       filter.clock_.setFramerate(GST_VIDEO_INFO_FPS_N(&info), GST_VIDEO_INFO_FPS_D(&info));
       return TRUE;
     });
@@ -115,15 +149,18 @@ struct FilterShell {
   }
 
   static gboolean sinkEvent(GstBaseTransform* element, GstEvent* event) {
-    guarded(element, FALSE, [&]() -> gboolean {
-      handleEvent(filterOf(element), event);
-      return TRUE;
+    withFilter(element, FALSE, [&](Filter& filter) -> gboolean {
+      return orAnew(filter, [&] {
+        handleEvent(filter, event);
+        return TRUE;
+      });
     });
     return GST_BASE_TRANSFORM_CLASS(parentClass)->sink_event(element, event);
   }
 
   static gboolean srcEvent(GstBaseTransform* element, GstEvent* event) {
-    if (GST_EVENT_TYPE(event) == GST_EVENT_RECONFIGURE) filterOf(element).isDownstreamNew_ = true;
+    Filter* filter = filterOf(element);
+    if (filter && GST_EVENT_TYPE(event) == GST_EVENT_RECONFIGURE) filter->isDownstreamNew_ = true;
     return GST_BASE_TRANSFORM_CLASS(parentClass)->src_event(element, event);
   }
 
@@ -138,6 +175,7 @@ struct FilterShell {
         filter.sendHeld();
         const gchar* id = nullptr;
         gst_event_parse_stream_start(event, &id);
+        if (!id) id = "";
         if (!filter.streamId_.empty() && filter.streamId_ != id) {
           filter.reset(Reset::Stream);
           filter.clock_.restart();
@@ -159,59 +197,54 @@ struct FilterShell {
     }
   }
 
+  /// Controllers follow the stream's time, which segments in bytes or frames don't have.
+  static void controlProperties(GstBaseTransform* element, GstClockTime pts) {
+    if (numberIn(element->segment.format) != GST_FORMAT_TIME) return;
+    const GstClockTime time = gst_segment_to_stream_time(&element->segment, GST_FORMAT_TIME, pts);
+    if (GST_CLOCK_TIME_IS_VALID(time)) gst_object_sync_values(GST_OBJECT(element), time);
+  }
+
   static GstFlowReturn transform(GstBaseTransform* element, GstBuffer* buffer) {
-    return guarded(element, GST_FLOW_ERROR, [&] {
-      Filter& filter = filterOf(element);
-      const GstClockTime time =
-          gst_segment_to_stream_time(&element->segment, GST_FORMAT_TIME, GST_BUFFER_PTS(buffer));
-      if (GST_CLOCK_TIME_IS_VALID(time)) gst_object_sync_values(GST_OBJECT(element), time);
-      const Tick tick = filter.clock_.advance(buffer);
-      if (tick.reset) filter.reset(*tick.reset);
-      const bool isUsable = !GST_BUFFER_FLAG_IS_SET(buffer, GST_BUFFER_FLAG_GAP) &&
-                            !GST_BUFFER_FLAG_IS_SET(buffer, GST_BUFFER_FLAG_CORRUPTED);
-      const bool isFirst = std::exchange(filter.isFirst_, false);
-      const bool isDownstreamNew = filter.isDownstreamNew_.exchange(false);
-      return filter.process({buffer, filter.info_, tick.time, isFirst, isDownstreamNew, isUsable});
+    return withFilter(element, GST_FLOW_ERROR, [&](Filter& filter) {
+      controlProperties(element, GST_BUFFER_PTS(buffer));
+      return orAnew(filter, [&] { return look(filter, buffer); });
     });
+  }
+
+  static GstFlowReturn look(Filter& filter, GstBuffer* buffer) {
+    const Tick tick = filter.clock_.advance(buffer);
+    if (tick.reset) filter.reset(*tick.reset);
+    const bool isUsable = !GST_BUFFER_FLAG_IS_SET(buffer, GST_BUFFER_FLAG_GAP) &&
+                          !GST_BUFFER_FLAG_IS_SET(buffer, GST_BUFFER_FLAG_CORRUPTED);
+    const bool isDownstreamNew = filter.isDownstreamNew_.exchange(false);
+    const GstFlowReturn flow = filter.process(
+        {buffer, filter.info_, tick.time, filter.isFirst_, isDownstreamNew, isUsable});
+    filter.isFirst_ = false;
+    return flow;
   }
 
   static GstFlowReturn generateOutput(GstBaseTransform* element, GstBuffer** out) {
     const GstFlowReturn flow = GST_BASE_TRANSFORM_CLASS(parentClass)->generate_output(element, out);
-    Filter& filter = filterOf(element);
-    if (flow != GST_FLOW_OK || filter.latency() == 0) return flow;
-    return guarded(element, GST_FLOW_ERROR, [&] {
-      if (*out) filter.hold(std::exchange(*out, nullptr));
-      *out = filter.release(false);
-      return GST_FLOW_OK;
+    return withFilter(element, GST_FLOW_ERROR, [&](Filter& filter) {
+      if (flow != GST_FLOW_OK || filter.latency() == 0) return flow;
+      return orAnew(filter, [&] {
+        if (*out) filter.hold(std::exchange(*out, nullptr));
+        *out = filter.release(false);
+        return GST_FLOW_OK;
+      });
     });
-  }
-
-  /// Frames that are held back at any time; 0 where their rate is not known.
-  static guint64 heldFrames(Filter& filter) {
-    const GstVideoInfo& info = filter.info_;
-    if (GST_VIDEO_INFO_FPS_N(&info) <= 0 || GST_VIDEO_INFO_FPS_D(&info) <= 0) return 0;
-    return gst_util_uint64_scale_ceil(
-        filter.latency(), static_cast<guint64>(GST_VIDEO_INFO_FPS_N(&info)),
-        static_cast<guint64>(GST_VIDEO_INFO_FPS_D(&info)) * GST_SECOND);
-  }
-
-  /// A frame leaves when the first one comes that is later by the latency.
-  static GstClockTime wholeLatency(Filter& filter) {
-    const guint64 frames = heldFrames(filter);
-    if (frames == 0) return filter.latency();
-    return gst_util_uint64_scale_ceil(
-        frames, static_cast<guint64>(GST_VIDEO_INFO_FPS_D(&filter.info_)) * GST_SECOND,
-        static_cast<guint64>(GST_VIDEO_INFO_FPS_N(&filter.info_)));
   }
 
   static gboolean query(GstBaseTransform* element, GstPadDirection direction, GstQuery* query) {
     const bool isHandled =
         GST_BASE_TRANSFORM_CLASS(parentClass)->query(element, direction, query) != FALSE;
-    if (isHandled && direction == GST_PAD_SRC && GST_QUERY_TYPE(query) == GST_QUERY_LATENCY) {
+    const Filter* filter = filterOf(element);
+    if (isHandled && filter && direction == GST_PAD_SRC &&
+        GST_QUERY_TYPE(query) == GST_QUERY_LATENCY) {
       gboolean isLive = FALSE;
       GstClockTime least = 0, most = 0;
       gst_query_parse_latency(query, &isLive, &least, &most);
-      const GstClockTime own = wholeLatency(filterOf(element));
+      const GstClockTime own = filter->wholeLatency_;
       gst_query_set_latency(query, isLive, least + own,
                             GST_CLOCK_TIME_IS_VALID(most) ? most + own : most);
     }
@@ -222,17 +255,10 @@ struct FilterShell {
   /// are held here come on top.
   static gboolean proposeAllocation(GstBaseTransform* element, GstQuery*, GstQuery* query) {
     const gboolean isHandled = gst_pad_peer_query(GST_BASE_TRANSFORM_SRC_PAD(element), query);
-    Filter& filter = filterOf(element);
-    if (!isHandled || filter.latency() == 0) return isHandled;
-    const auto held = static_cast<guint>(heldFrames(filter));
-    for (guint i = 0; i < gst_query_get_n_allocation_pools(query); ++i) {
-      GstBufferPool* pool = nullptr;
-      guint size = 0, least = 0, most = 0;
-      gst_query_parse_nth_allocation_pool(query, i, &pool, &size, &least, &most);
-      gst_query_set_nth_allocation_pool(query, i, pool, size, least + held,
-                                        most == 0 ? 0 : most + held);
-      if (pool) gst_object_unref(pool);
-    }
+    Filter* filter = filterOf(element);
+    if (isHandled && filter && filter->latency() > 0)
+      raisePools(query, static_cast<guint>(std::min(framesIn(filter->latency(), filter->info_),
+                                                    filter->mostHeld())));
     return isHandled;
   }
 
@@ -273,9 +299,13 @@ struct FilterShell {
 
   static void initInstance(GTypeInstance* instance, gpointer klass) {
     auto* element = reinterpret_cast<GstBaseTransform*>(instance);
-    reinterpret_cast<Instance*>(instance)->filter =
-        static_cast<Class*>(klass)->description->create(element);
     gst_base_transform_set_in_place(element, TRUE);
+    try {
+      reinterpret_cast<Instance*>(instance)->filter =
+          static_cast<Class*>(klass)->description->create(element);
+    } catch (...) {
+      GST_CAT_ERROR_OBJECT(static_cast<Class*>(klass)->category, element, "out of memory");
+    }
   }
 };
 
@@ -290,8 +320,21 @@ GType registerFilter(const FilterDescription& description) {
                                 static_cast<GTypeFlags>(0));
 }
 
+bool acceptsSize(gpointer element, const GstVideoInfo& info) {
+  const int width = GST_VIDEO_INFO_WIDTH(&info), height = GST_VIDEO_INFO_HEIGHT(&info);
+  const int64_t pixels = int64_t{width} * height;
+  if (pixels > 0 && pixels <= kMaxPixels) return true;
+  GST_ELEMENT_ERROR(element, STREAM, FORMAT, ("Frames of %dx%d are too large.", width, height),
+                    ("At most %" G_GINT64_FORMAT " pixels; put videoscale in front.", kMaxPixels));
+  return false;
+}
+
 GstDebugCategory* Filter::category() const {
   return classOf(element_)->category;
+}
+
+guint64 Filter::mostHeld() const {
+  return mostHeldFrames(info_);
 }
 
 void Filter::sendHeld() {

@@ -38,6 +38,9 @@ extern const char* const kPixelCaps;
 /// Any raw video in any memory, for elements that read metas only.
 extern const char* const kMetaCaps;
 
+/// False, with an error on the bus, for frames of more pixels than labels and sums are sized for.
+bool acceptsSize(gpointer element, const GstVideoInfo& info);
+
 /// Registers the element's type; for use in a function-local static.
 GType registerFilter(const FilterDescription& description);
 
@@ -93,6 +96,8 @@ class Filter {
     const std::lock_guard lock(settingsMutex_);
     return settings;
   }
+  /// How many frames may be held, of the caps as they are; see gst/support/frame_hold.hpp.
+  [[nodiscard]] guint64 mostHeld() const;
   /// Sends the frames that are held, before something that ends what they belong to.
   void sendHeld();
   void postWarning(const std::string& text) const;
@@ -107,7 +112,8 @@ class Filter {
   GstVideoInfo info_{};
   bool hasCaps_ = false;
   bool isFirst_ = true;
-  std::atomic<bool> isDownstreamNew_ = true;  ///< Set by the thread that downstream asks on.
+  std::atomic<bool> isDownstreamNew_ = true;    ///< Set by the thread that downstream asks on.
+  std::atomic<GstClockTime> wholeLatency_ = 0;  ///< As reported; asked for on any thread.
   std::string streamId_;
   StreamClock clock_;
 };

@@ -4,17 +4,22 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <fcntl.h>
 #include <png.h>
+#include <sys/stat.h>
+#include <unistd.h>
 #include <utility>
 
 namespace rg {
 namespace {
 
-constexpr int kMostSide = 16384;
+constexpr int64_t kMostPixels = int64_t{8192} * 4320;  // As many as a frame may have.
+constexpr off_t kMostBytes = off_t{256} << 20;  // Such a picture in four channels of 16 bits.
 
 struct CloseFile {
   void operator()(std::FILE* file) const { std::fclose(file); }
 };
+using File = std::unique_ptr<std::FILE, CloseFile>;
 
 /// libpng's simplified reader; frees what it holds on every way out.
 struct PngReader {
@@ -27,18 +32,43 @@ struct PngReader {
 
 Error unreadable(const std::string& path, const std::string& why) {
   return {"The mask " + path + " can't be read (" + why +
-          "): give the path of a PNG picture, white where to look, or an empty path for none"};
+          "): give the path of a PNG picture in a regular file, white where to look, or an empty "
+          "path for none"};
+}
+
+const char* kindOf(mode_t mode) {
+  if (S_ISDIR(mode)) return "it is a directory";
+  if (S_ISFIFO(mode)) return "it is a pipe";
+  return "it is no regular file";
+}
+
+/// Opens a regular file, or what a link to one leads to. Non-blocking: to open a pipe would wait
+/// for its writer, and to read from a device might never end.
+Result<File> openRegular(const std::string& path) {
+  const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK);
+  if (fd < 0) return unreadable(path, std::strerror(errno));
+  File file(::fdopen(fd, "rb"));
+  if (!file) {
+    const int reason = errno;
+    ::close(fd);
+    return unreadable(path, std::strerror(reason));
+  }
+  struct stat status;
+  if (::fstat(fd, &status) != 0) return unreadable(path, std::strerror(errno));
+  if (!S_ISREG(status.st_mode)) return unreadable(path, kindOf(status.st_mode));
+  if (status.st_size > kMostBytes) return unreadable(path, "more than 256 MiB");
+  return file;
 }
 
 /// Levels of grey; transparent pixels are black.
 Result<bool> readPng(const std::string& path, Image<uint8_t>& to) {
-  const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "rb"));
-  if (!file) return unreadable(path, std::strerror(errno));
+  const Result<File> file = openRegular(path);
+  if (!file) return file.error();
   PngReader reader;
-  if (!png_image_begin_read_from_stdio(&reader.image, file.get()))
+  if (!png_image_begin_read_from_stdio(&reader.image, file->get()))
     return unreadable(path, reader.image.message);
-  if (reader.image.width > kMostSide || reader.image.height > kMostSide)
-    return unreadable(path, "more than 16384 pixels a side");
+  if (int64_t{reader.image.width} * int64_t{reader.image.height} > kMostPixels)
+    return unreadable(path, "it has more than 35 million pixels");
   reader.image.format = PNG_FORMAT_GRAY;
   Image<uint8_t> picture(
       {static_cast<int>(reader.image.width), static_cast<int>(reader.image.height)});
@@ -54,7 +84,12 @@ Result<bool> readPng(const std::string& path, Image<uint8_t>& to) {
 
 Result<bool> InterestMask::follow(const InterestSettings& settings) {
   if (settings == settings_) return true;
-  settings_ = settings;
+  auto hasRead = read(settings);
+  settings_ = settings;  // Last: what an exception kept from being read is read again.
+  return hasRead;
+}
+
+Result<bool> InterestMask::read(const InterestSettings& settings) {
   auto polygons = parsePolygons(settings.areasOfInterest);
   if (!polygons) return Error{"areas-of-interest: " + polygons.error().message};
   if (settings.mask != path_) {

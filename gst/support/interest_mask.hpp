@@ -30,6 +30,8 @@ class InterestMask {
   [[nodiscard]] std::shared_ptr<const Image<uint8_t>> fit(Size frame);
 
  private:
+  [[nodiscard]] Result<bool> read(const InterestSettings& settings);
+
   InterestSettings settings_;  ///< As last asked for.
   std::string path_;           ///< Of the picture.
   Image<uint8_t> picture_;

@@ -9,6 +9,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <pthread.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
@@ -19,32 +20,42 @@ namespace {
 
 constexpr int kPollMs = 100;  // How soon a cancellation is noticed.
 
-Error errorOf(int code) {
-  return {std::generic_category().message(code)};
+/// A file is too large for the process's limit, or else for the file system.
+Error sizeError() {
+  rlimit limit{};
+  if (getrlimit(RLIMIT_FSIZE, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
+    return {"the process may not make files of more than " + std::to_string(limit.rlim_cur) +
+            " bytes; raise its limit (ulimit -f) or write to a pipe"};
+  return {"the file system takes no file as large; write to another one or to a pipe"};
 }
 
-/// Keeps SIGPIPE from ending the process when the reader of a pipe goes away. Only this thread's
-/// mask changes; a signal that write() raised meanwhile is taken back.
-class SigpipeBlock {
+Error errorOf(int code) {
+  return code == EFBIG ? sizeError() : Error{std::generic_category().message(code)};
+}
+
+/// Keeps a signal from ending the process: SIGPIPE when the reader of a pipe goes away, SIGXFSZ
+/// when a file reaches the process's limit. Only this thread's mask changes; a signal that write()
+/// raised meanwhile is taken back.
+class SignalBlock {
  public:
-  SigpipeBlock() {
-    sigemptyset(&pipe_);
-    sigaddset(&pipe_, SIGPIPE);
+  explicit SignalBlock(int signal) {
+    sigemptyset(&signal_);
+    sigaddset(&signal_, signal);
     sigset_t pending;
     sigpending(&pending);
-    wasPending_ = sigismember(&pending, SIGPIPE) == 1;
-    pthread_sigmask(SIG_BLOCK, &pipe_, &old_);
+    wasPending_ = sigismember(&pending, signal) == 1;
+    pthread_sigmask(SIG_BLOCK, &signal_, &old_);
   }
-  ~SigpipeBlock() {
+  ~SignalBlock() {
     constexpr timespec kNow{};
-    if (!wasPending_) sigtimedwait(&pipe_, nullptr, &kNow);
+    if (!wasPending_) sigtimedwait(&signal_, nullptr, &kNow);
     pthread_sigmask(SIG_SETMASK, &old_, nullptr);
   }
-  SigpipeBlock(const SigpipeBlock&) = delete;
-  SigpipeBlock& operator=(const SigpipeBlock&) = delete;
+  SignalBlock(const SignalBlock&) = delete;
+  SignalBlock& operator=(const SignalBlock&) = delete;
 
  private:
-  sigset_t pipe_;
+  sigset_t signal_;
   sigset_t old_;
   bool wasPending_;
 };
@@ -80,7 +91,7 @@ Result<LineFile> LineFile::open(const std::string& location) {
 
 std::optional<Error> LineFile::write(std::string_view text,
                                      const std::function<bool()>& isCancelled) {
-  const SigpipeBlock block;
+  const SignalBlock noPipe(SIGPIPE), noLimit(SIGXFSZ);
   while (!text.empty()) {
     if (!isRegular_) {
       pollfd waiting{fd_, POLLOUT, 0};

@@ -25,7 +25,8 @@ class LineFile {
   [[nodiscard]] static Result<LineFile> open(const std::string& location);
 
   /// Writes all of the text. A reader that does not read is waited for until isCancelled() says
-  /// otherwise; the rest of the text is lost then. A reader that went away is an error, no signal.
+  /// otherwise; the rest of the text is lost then. A reader that went away is an error, no signal,
+  /// and so is the limit of a file's size.
   std::optional<Error> write(std::string_view text, const std::function<bool()>& isCancelled);
 
   std::optional<Error> close();

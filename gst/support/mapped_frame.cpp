@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "gst/support/mapped_frame.hpp"
 
+#include "gst/support/foreign_enum.hpp"
+
 #include <array>
 #include <string>
 
@@ -32,7 +34,7 @@ std::optional<PixelFormat> formatOf(GstVideoFormat format) {
   }
 }
 
-YuvMatrix matrixOf(GstVideoColorMatrix matrix) {
+YuvMatrix matrixOf(int matrix) {
   switch (matrix) {
     case GST_VIDEO_COLOR_MATRIX_BT709:
       return YuvMatrix::Bt709;
@@ -52,11 +54,12 @@ YuvMatrix matrixOf(GstVideoColorMatrix matrix) {
 std::optional<FrameLayout> layoutOf(const GstVideoInfo& info) {
   const auto format = formatOf(GST_VIDEO_INFO_FORMAT(&info));
   if (!format) return std::nullopt;
-  const auto range =
-      info.colorimetry.range == GST_VIDEO_COLOR_RANGE_0_255 ? YuvRange::Full : YuvRange::Limited;
+  const auto range = numberIn(info.colorimetry.range) == GST_VIDEO_COLOR_RANGE_0_255
+                         ? YuvRange::Full
+                         : YuvRange::Limited;
   return FrameLayout{*format,
                      {GST_VIDEO_INFO_WIDTH(&info), GST_VIDEO_INFO_HEIGHT(&info)},
-                     matrixOf(info.colorimetry.matrix),
+                     matrixOf(numberIn(info.colorimetry.matrix)),
                      range};
 }
 
@@ -76,11 +79,13 @@ Result<Frame> MappedFrame::check(const GstVideoInfo& info) const {
   if (!layout) return Error{"the caps' format is not supported"};
   const GstVideoMeta* meta = gst_buffer_get_video_meta(buffer_);
   const auto count = static_cast<size_t>(planeCount(layout->format));
-  if (meta && (meta->format != GST_VIDEO_INFO_FORMAT(&info) || meta->n_planes < count ||
+  if (meta && (numberIn(meta->format) != GST_VIDEO_INFO_FORMAT(&info) || meta->n_planes != count ||
                meta->width != static_cast<guint>(layout->size.width) ||
                meta->height != static_cast<guint>(layout->size.height)))
     return Error{"the buffer's GstVideoMeta says " + std::to_string(meta->width) + "x" +
-                 std::to_string(meta->height) + ", the caps say otherwise"};
+                 std::to_string(meta->height) + " of format " +
+                 std::to_string(numberIn(meta->format)) + " in " + std::to_string(meta->n_planes) +
+                 " planes, the caps say otherwise"};
   std::array<PlaneMemory, Frame::kMaxPlanes> planes;
   for (size_t i = 0; i < count; ++i) {
     const gsize offset = meta ? meta->offset[i] : info.offset[i];

@@ -31,6 +31,11 @@ class PixelFilter : public StageOwner<Settings, Stage> {
  public:
   using StageOwner<Settings, Stage>::StageOwner;
 
+  void reset(Reset what) override {
+    if (what == Reset::Stream) pool_.drop();
+    StageOwner<Settings, Stage>::reset(what);
+  }
+
  protected:
   /// Maps, checks and converts a frame; counts those whose memory can't be believed.
   [[nodiscard]] Result<std::shared_ptr<const Picture>> load(const FilterFrame& frame) {

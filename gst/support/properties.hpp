@@ -4,12 +4,18 @@
 
 #include <gst/gst.h>
 
+#include <cstddef>
+#include <cstring>
 #include <initializer_list>
 #include <span>
 #include <string>
 #include <type_traits>
 
 namespace rg {
+
+/// Texts are copied for each frame: what lies beyond is cut off. No text that means anything is as
+/// long, so that it is refused where it is read.
+inline constexpr size_t kMostTextBytes = size_t{1} << 20;
 
 /// When a property may change.
 enum class Mutable { Playing, Ready, Never };
@@ -90,7 +96,7 @@ constexpr Property property(const char* name, const char* blurb, double least = 
       to = g_value_get_double(value);
     } else {
       const char* text = g_value_get_string(value);
-      to = text ? text : "";
+      to.assign(text ? text : "", text ? strnlen(text, kMostTextBytes) : 0);
     }
   };
   return p;

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "gst/support/stream_clock.hpp"
 
+#include "core/time.hpp"
+
 namespace rg {
 namespace {
 
-constexpr int64_t kNominalFrameNs = 40 * GST_MSECOND;
 constexpr int64_t kGapNs = GST_SECOND;
 
 }  // namespace
@@ -25,11 +26,12 @@ Tick StreamClock::advance(GstBuffer* buffer) {
   if (hasPts)
     tick.time.ns = static_cast<int64_t>(pts);
   else if (last_)
-    tick.time.ns = *last_ + (frameNs_ > 0 ? frameNs_ : kNominalFrameNs);
+    tick.time.ns = addTimes(*last_, frameNs_ > 0 ? frameNs_ : kNominalStepNs);
   if (last_) {
     if (tick.time.ns < *last_)
       tick.reset = Reset::Flush;
-    else if (GST_BUFFER_IS_DISCONT(buffer) || (hasPts && tick.time.ns - *last_ > kGapNs))
+    else if (GST_BUFFER_IS_DISCONT(buffer) ||
+             (hasPts && timeBetween(*last_, tick.time.ns) > kGapNs))
       tick.reset = Reset::Gap;
   }
   last_ = tick.time.ns;

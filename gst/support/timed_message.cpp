@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "gst/support/timed_message.hpp"
 
+#include "gst/support/foreign_enum.hpp"
+
 namespace rg {
 
 void postTimedMessage(GstBaseTransform* element, GstClockTime pts, GstStructure* fields) {
   const GstSegment* segment = &element->segment;
-  const bool hasTimes = segment->format == GST_FORMAT_TIME && GST_CLOCK_TIME_IS_VALID(pts);
+  // Backwards from nowhere is no time; GStreamer calls it critical.
+  const bool hasOrigin = segment->rate > 0 || GST_CLOCK_TIME_IS_VALID(segment->stop);
+  const bool hasTimes =
+      numberIn(segment->format) == GST_FORMAT_TIME && hasOrigin && GST_CLOCK_TIME_IS_VALID(pts);
   const guint64 streamTime =
       hasTimes ? gst_segment_to_stream_time(segment, GST_FORMAT_TIME, pts) : GST_CLOCK_TIME_NONE;
   const guint64 runningTime =

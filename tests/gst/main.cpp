@@ -4,10 +4,22 @@
 #include <gst/gst.h>
 #include <gtest/gtest.h>
 
+namespace {
+
+/// A message of GLib that tells of a fault in its caller fails the test that runs.
+void failOnCritical(const gchar* domain, GLogLevelFlags level, const gchar* text, gpointer) {
+  g_log_default_handler(domain, level, text, nullptr);
+  if ((level & G_LOG_LEVEL_CRITICAL) != 0)
+    ADD_FAILURE() << (domain ? domain : "GLib") << ": " << text;
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
   ::testing::InitGoogleTest(&argc, argv);
   gst_init(&argc, &argv);
   rg::testing::registerElements();
+  g_log_set_default_handler(failOnCritical, nullptr);
   const int status = RUN_ALL_TESTS();
   gst_deinit();
   return status;

@@ -44,6 +44,20 @@ void expectPassedUnreadByAll(const Caps& caps, const std::function<BufferPtr()>&
   expectPassedUnread("hsvsegment", "hsvsegment", caps, make());
 }
 
+/// regionoverlay writes into frames: one whose meta lies passes as it came, with one complaint.
+void expectPassedUndrawn([[maybe_unused]] const Caps& caps, BufferPtr frame) {
+#ifdef REGIONGRAPH_HAS_OVERLAY
+  Chain chain("bgremove ! regionoverlay background=black boxes=false ids=false trails=false", caps);
+  ASSERT_TRUE(chain.pass(paint(caps, 0, square(2, 2, 9))));
+  const auto before = testing::bytesOf(frame.get());
+  const BufferPtr out = chain.pass(std::move(frame));
+  ASSERT_TRUE(out);
+  EXPECT_EQ(testing::bytesOf(out.get()), before);
+  EXPECT_NE(chain.complaint(GST_MESSAGE_WARNING).find("skipped"), std::string::npos);
+  EXPECT_NE(chain.complaint(GST_MESSAGE_WARNING).find("passed on as it came"), std::string::npos);
+#endif
+}
+
 BufferPtr allocate(gsize bytes) {
   BufferPtr buffer(gst_buffer_new_allocate(nullptr, bytes, nullptr));
   gst_buffer_memset(buffer.get(), 0, 77, bytes);
@@ -97,6 +111,26 @@ TEST(HostileFrame, AMetaOfAnotherSizeOrFormatIsNotBelieved) {
   });
 }
 
+TEST(HostileFrame, AMetaWithAnotherNumberOfPlanesOrNoFormatIsNotBelieved) {
+  const auto lie = [](guint planes, int format) {
+    BufferPtr buffer = allocate(32 * 10);
+    GstVideoMeta* meta = gst_buffer_add_video_meta(buffer.get(), GST_VIDEO_FRAME_FLAG_NONE,
+                                                   GST_VIDEO_FORMAT_GRAY8, 32, 10);
+    meta->n_planes = planes;
+    std::memcpy(&meta->format, &format, sizeof format);
+    return buffer;
+  };
+  const Caps caps{"GRAY8", 32, 10};
+  for (const guint planes : {0u, 2u, 5u, G_MAXUINT}) {
+    expectPassedUnreadByAll(caps, [&] { return lie(planes, GST_VIDEO_FORMAT_GRAY8); });
+    expectPassedUndrawn(caps, lie(planes, GST_VIDEO_FORMAT_GRAY8));
+  }
+  for (const int format : {-1, 0x7fffffff}) {
+    expectPassedUnreadByAll(caps, [&] { return lie(1, format); });
+    expectPassedUndrawn(caps, lie(1, format));
+  }
+}
+
 TEST(HostileFrame, PaddedRowsGiveWhatPackedRowsGive) {
   const Caps caps{"GRAY8", 50, 40};
   Chain packed("bgremove ! hsvsegment", caps), padded("bgremove ! hsvsegment", caps);
@@ -147,6 +181,12 @@ TEST(HostileCaps, TooLargeFramesAreRefused) {
     Chain chain("bgremove", Caps{"GRAY8", width, height});
     EXPECT_EQ(chain.push(allocate(100)), GST_FLOW_NOT_NEGOTIATED) << width << "x" << height;
   }
+}
+
+TEST(HostileCaps, NoMasksAreMadeOfTooLargeFrames) {
+  Chain chain("regionmask", Caps{"GRAY8", 16384, 16384});
+  EXPECT_EQ(chain.push(allocate(100)), GST_FLOW_NOT_NEGOTIATED);
+  EXPECT_NE(chain.complaint(GST_MESSAGE_ERROR).find("too large"), std::string::npos);
 }
 
 TEST(HostileCaps, OtherFormatsAreRefused) {

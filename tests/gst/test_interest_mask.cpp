@@ -8,6 +8,8 @@
 
 #include <png.h>
 #include <string>
+#include <sys/stat.h>
+#include <unistd.h>
 
 namespace rg {
 namespace {
@@ -18,6 +20,21 @@ using testing::paint;
 using testing::square;
 
 constexpr const char* kMethods[] = {"hybrid", "paper training-frames=4", "frame-difference"};
+
+/// A name in the temporary folder; what is made there goes with it.
+class PathInTemp {
+ public:
+  explicit PathInTemp(const std::string& name)
+      : path_(std::string(g_get_tmp_dir()) + "/regiongraph-" + name + '-' +
+              std::to_string(getpid()) + '-' + std::to_string(g_get_monotonic_time())) {}
+  ~PathInTemp() { g_remove(path_.c_str()); }
+  PathInTemp(const PathInTemp&) = delete;
+  PathInTemp& operator=(const PathInTemp&) = delete;
+  [[nodiscard]] const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
 
 /// A PNG of 2x1 pixels, the left one white, for as long as it lives.
 class LeftHalf {
@@ -122,6 +139,88 @@ TEST(InterestProperties, ABadValueAtTheStartIsAnErrorThatNamesTheRemedy) {
             std::string::npos);
   EXPECT_NE(errorOf("hsvsegment", "background-hue", "green").find("degrees"), std::string::npos);
   EXPECT_NE(errorOf("hsvsegment", "object-hue", "10").find("object-hue"), std::string::npos);
+}
+
+TEST(InterestProperties, WhatIsNoRegularFileIsAnErrorAtTheStart) {
+  const PathInTemp folder("folder"), pipe("pipe"), socket("socket");
+  ASSERT_EQ(g_mkdir(folder.path().c_str(), 0700), 0);
+  ASSERT_EQ(mkfifo(pipe.path().c_str(), 0600), 0);
+  ASSERT_EQ(mknod(socket.path().c_str(), S_IFSOCK | 0600, 0), 0);
+  for (const char* path : {folder.path().c_str(), pipe.path().c_str(), socket.path().c_str(),
+                           "/dev/zero", "/dev/tty", "/proc/self/mem"}) {
+    const std::string error = errorOf("bgremove", "mask", path);
+    EXPECT_NE(error.find("in a regular file"), std::string::npos) << path << ": " << error;
+  }
+}
+
+TEST(InterestProperties, APipeWhilePlayingWarnsAndChangesNothing) {
+  const LeftHalf file;
+  const PathInTemp pipe("pipe");
+  ASSERT_EQ(mkfifo(pipe.path().c_str(), 0600), 0);
+  Chain chain("bgremove mask=" + file.path());
+  int index = 0;
+  learnWall(chain, index);
+  GstElement* element = chain.element("bgremove");
+  g_object_set(element, "mask", pipe.path().c_str(), nullptr);
+  EXPECT_EQ(rightBorder(chain, index), 32);
+  EXPECT_NE(chain.complaint(GST_MESSAGE_WARNING).find("it is a pipe"), std::string::npos);
+  gst_object_unref(element);
+}
+
+TEST(InterestProperties, ALinkToAPictureIsFollowed) {
+  const LeftHalf file;
+  const PathInTemp link("link");
+  ASSERT_EQ(::symlink(file.path().c_str(), link.path().c_str()), 0);
+  Chain chain("bgremove mask=" + link.path());
+  int index = 0;
+  learnWall(chain, index);
+  EXPECT_EQ(rightBorder(chain, index), 32);
+}
+
+TEST(InterestProperties, AHugePictureIsRefused) {
+  const PathInTemp sparse("sparse"), wide("wide");
+  ASSERT_TRUE(g_file_set_contents(sparse.path().c_str(), "", 0, nullptr));
+  ASSERT_EQ(::truncate(sparse.path().c_str(), off_t{1} << 40), 0);
+  EXPECT_NE(errorOf("bgremove", "mask", sparse.path().c_str()).find("256 MiB"), std::string::npos);
+  // The head of a PNG of 16384x16384 pixels; no more is read.
+  constexpr char kHead[] =
+      "\x89PNG\r\n\x1a\n"
+      "\0\0\0\x0dIHDR\0\0\x40\0\0\0\x40\0\x08\0\0\0\0\x8c\xa3\x4f\x58"
+      "\0\0\0\0IDAT\x35\xaf\x06\x1e";
+  ASSERT_TRUE(g_file_set_contents(wide.path().c_str(), kHead, sizeof kHead - 1, nullptr));
+  const std::string error = errorOf("bgremove", "mask", wide.path().c_str());
+  EXPECT_NE(error.find("35 million"), std::string::npos) << error;
+}
+
+/// A polygon round the middle of so many points.
+std::string starOf(size_t points) {
+  std::string text;
+  for (size_t i = 0; i < points; ++i) text += i % 2 == 0 ? "0.1,0.1 " : "0.9,0.8 ";
+  return text;
+}
+
+TEST(InterestProperties, TooManyPointsAreAnErrorThatNamesTheRemedy) {
+  for (const std::string& text : {starOf(1'000'000), starOf(1001), std::string(5'000'000, ' '),
+                                  starOf(500) + ';' + starOf(501), std::string(3'000'000, 'x')}) {
+    const std::string error = errorOf("bgremove", "areas-of-interest", text.c_str());
+    EXPECT_NE(error.find("1000 points"), std::string::npos) << error;
+    EXPECT_LT(error.size(), 500u);
+  }
+}
+
+TEST(InterestProperties, AMillionPointsWhilePlayingWarnOnceAndChangeNothing) {
+  Chain chain("bgremove areas-of-interest=\"0,0 0.5,0 0.5,1 0,1\"");
+  int index = 0;
+  learnWall(chain, index);
+  GstElement* element = chain.element("bgremove");
+  g_object_set(element, "areas-of-interest", starOf(1'000'000).c_str(), nullptr);
+  EXPECT_EQ(rightBorder(chain, index), 32);
+  EXPECT_NE(chain.complaint(GST_MESSAGE_WARNING).find("1000 points"), std::string::npos);
+  EXPECT_EQ(chain.complaint(GST_MESSAGE_WARNING), "");
+  g_object_set(element, "areas-of-interest", starOf(1000).c_str(), nullptr);
+  EXPECT_TRUE(chain.pass(paint({}, index, square(24, 16, 16))));
+  EXPECT_EQ(chain.complaint(GST_MESSAGE_WARNING), "");
+  gst_object_unref(element);
 }
 
 TEST(HueProperties, MakeAHueMaskThatRegionmaskShows) {

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 namespace rg {
@@ -73,6 +74,84 @@ TEST(Latency, IsReportedInWholeFrames) {
               static_cast<GstClockTime>(expected) * GST_MSECOND)
         << property;
   }
+}
+
+/// What an upstream element is asked to allocate at least, and may at most.
+std::pair<guint, guint> poolOf(Chain& chain) {
+  gst_harness_add_propose_allocation_meta(chain.harness(), GST_VIDEO_META_API_TYPE, nullptr);
+  GstHarness* harness = chain.harness();
+  GstCaps* caps = gst_caps_from_string(chain.caps().text().c_str());
+  gst_harness_set_propose_allocator(harness, nullptr, nullptr);
+  GstQuery* query = gst_query_new_allocation(caps, TRUE);
+  GstBufferPool* pool = gst_video_buffer_pool_new();
+  gst_query_add_allocation_pool(query, pool, 1000, 2, 3);
+  gst_query_add_allocation_pool(query, nullptr, 1000, 2, 0);
+  gst_query_add_allocation_pool(query, nullptr, 1000, G_MAXUINT, G_MAXUINT);
+  EXPECT_TRUE(gst_pad_peer_query(harness->srcpad, query));
+  guint least = 0, most = 0;
+  gst_query_parse_nth_allocation_pool(query, 0, nullptr, nullptr, &least, &most);
+  EXPECT_EQ(most, least + 1);
+  gst_query_parse_nth_allocation_pool(query, 1, nullptr, nullptr, nullptr, &most);
+  EXPECT_EQ(most, 0u);
+  guint whole = 0;
+  gst_query_parse_nth_allocation_pool(query, 2, nullptr, nullptr, &whole, &most);
+  EXPECT_EQ(whole, G_MAXUINT);
+  EXPECT_EQ(most, G_MAXUINT);
+  gst_query_unref(query);
+  gst_object_unref(pool);
+  gst_caps_unref(caps);
+  return {least, most};
+}
+
+TEST(Latency, AsksPoolsForWhatIsHeldButNeverForMoreThanTheBound) {
+  for (const auto& [caps, held] :
+       {std::pair{Caps{"GRAY8", 160, 120, "25/1"}, 250u},
+        {Caps{"GRAY8", 160, 120, "0/1"}, 0u},
+        {Caps{"GRAY8", 160, 120, "90000/1"}, 600u},
+        {Caps{"I420", 1920, 1080, "90000/1"}, 98u},  // 2 GiB, 10.5 bytes a pixel.
+        {Caps{"I420", 7680, 4320, "2147483647/1"}, 6u}}) {
+    Chain chain(kStages + "latency=10", caps);
+    EXPECT_EQ(poolOf(chain).first, 2 + held) << caps.text();
+  }
+}
+
+constexpr int kMostHeld = 600;
+
+TEST(Latency, HoldsNoMoreFramesThanTheBoundAndSaysSoOnce) {
+  const Caps caps{"GRAY8", 16, 16, "90000/1"};
+  Chain chain(kStages + "latency=10", caps);
+  for (int i = 0; i < kMostHeld + 50; ++i) {
+    BufferPtr buffer = paint(caps, 0, square(i % 16 - 4, 4, 6));
+    GST_BUFFER_PTS(buffer.get()) = static_cast<GstClockTime>(i) * GST_SECOND / 90000;
+    ASSERT_EQ(chain.push(std::move(buffer)), GST_FLOW_OK);
+  }
+  EXPECT_EQ(pulled(chain).size(), 50u);
+  const std::string complaint = chain.complaint(GST_MESSAGE_WARNING);
+  EXPECT_NE(complaint.find("lower latency"), std::string::npos) << complaint;
+  EXPECT_EQ(chain.complaint(GST_MESSAGE_WARNING), "");
+  gst_harness_push_event(chain.harness(), gst_event_new_eos());
+  EXPECT_EQ(pulled(chain).size(), static_cast<size_t>(kMostHeld));
+}
+
+TEST(Latency, TimesThatStandStillReleaseAsIfTheyWentOnAndAreToldOnce) {
+  for (const GstClockTime pts : {GstClockTime{0}, GST_CLOCK_TIME_NONE, GstClockTime{G_MAXINT64},
+                                 GstClockTime{G_MAXUINT64 - 1}})
+    for (const char* framerate : {"25/1", "0/1"}) {
+      const Caps caps{"GRAY8", 160, 120, framerate};
+      Chain chain(kStages + "latency=0.2", caps);
+      size_t out = 0;
+      for (int i = 0; i < 60; ++i) {
+        BufferPtr buffer = paint(caps, i, square(3 * i - 40, 40, 24));
+        GST_BUFFER_PTS(buffer.get()) = pts;
+        ASSERT_EQ(chain.push(std::move(buffer)), GST_FLOW_OK);
+        out += pulled(chain).size();
+      }
+      EXPECT_EQ(out, 60u - kHeld) << pts << ' ' << framerate;
+      const bool standsStill = pts <= GstClockTime{G_MAXINT64};
+      EXPECT_EQ(chain.complaint(GST_MESSAGE_WARNING).find("stand still") != std::string::npos,
+                standsStill);
+      EXPECT_EQ(chain.complaint(GST_MESSAGE_WARNING), "");
+    }
 }
 
 TEST(Latency, AFlushDropsWhatIsHeld) {

@@ -245,5 +245,28 @@ TEST(RegionMask, FollowsNewCaps) {
   }
 }
 
+TEST(RegionMask, AnotherSourceWhilePlayingDoesNotChangeWhatWasNegotiated) {
+  const Caps caps{"I420", 7, 5};
+  Chain chain("regionmask", caps);
+  GstElement* element = chain.element("regionmask");
+  const auto makeFrame = [&](int index) {
+    BufferPtr frame = frameWith<Foreground>(caps, testing::foreground(kSize, {2, 1, 3, 2}), index);
+    auto labels = std::make_shared<Labels>();
+    labels->size = kSize;
+    labels->status = Status::Ok;
+    labels->count = 65535;
+    labels->ids.resize(kSize);
+    labels->ids.fill(65535);
+    attachResult<Labels>(frame.get(), std::move(labels));
+    return frame;
+  };
+  const BufferPtr before = chain.pass(makeFrame(0));
+  gst_util_set_object_arg(G_OBJECT(element), "source", "labels");
+  const BufferPtr after = chain.pass(makeFrame(1));
+  gst_object_unref(element);
+  ASSERT_TRUE(before && after);
+  EXPECT_EQ(testing::bytesOf(after.get()), testing::bytesOf(before.get()));
+}
+
 }  // namespace
 }  // namespace rg

@@ -4,10 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <csignal>
 #include <fcntl.h>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -252,6 +254,40 @@ TEST_F(RegionWrite, AReaderThatGoesAwayIsAnErrorInsteadOfASignal) {
   close(reader);
   EXPECT_EQ(chain.push(frame(1, oneObject())), GST_FLOW_ERROR);
   EXPECT_NE(chain.complaint(GST_MESSAGE_ERROR).find("Broken pipe"), std::string::npos);
+}
+
+/// The size that files of this process may have, for as long as it lives.
+class FileLimit {
+ public:
+  explicit FileLimit(rlim_t bytes) {
+    getrlimit(RLIMIT_FSIZE, &old_);
+    const rlimit limit{bytes, old_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FileLimit() { setrlimit(RLIMIT_FSIZE, &old_); }
+  FileLimit(const FileLimit&) = delete;
+  FileLimit& operator=(const FileLimit&) = delete;
+
+ private:
+  rlimit old_{};
+};
+
+TEST_F(RegionWrite, ALimitOfFileSizesIsAnErrorInsteadOfASignal) {
+  Chain chain(line("format=mot"));
+  int index = 0;
+  for (; index < 5; ++index) ASSERT_TRUE(chain.pass(frame(index, oneObject())));
+  const std::string before = written();
+  {
+    const FileLimit limit(before.size() + 3);
+    EXPECT_EQ(chain.push(frame(index, oneObject())), GST_FLOW_ERROR);
+  }
+  const std::string error = chain.complaint(GST_MESSAGE_ERROR);
+  EXPECT_NE(error.find(std::to_string(before.size() + 3) + " bytes"), std::string::npos) << error;
+  EXPECT_NE(error.find("ulimit -f"), std::string::npos) << error;
+  EXPECT_EQ(written().substr(0, before.size()), before);
+  sigset_t pending;
+  sigpending(&pending);
+  EXPECT_EQ(sigismember(&pending, SIGXFSZ), 0);
 }
 
 TEST_F(RegionWrite, AReaderThatDoesNotReadDoesNotStopTheElementFromStopping) {
