@@ -31,6 +31,8 @@ class Pipeline {
     segmentationParams_.scope = options.scope;
     segmentationParams_.maxRegions = options.regions;
     segmentationParams_.minAreaPx = options.minAreaPx;
+    segmentationParams_.similarity = options.similarity;
+    graphParams_.connectivity = static_cast<Connectivity>(options.connectivity);
     motionParams_.maxShiftPx = options.shiftPx;
   }
 
@@ -46,8 +48,8 @@ class Pipeline {
     const auto labels = timings.measure(kStages[0], [&] {
       return valueOf(segmentation_->process(picture, foreground, segmentationParams_));
     });
-    const auto graph = timings.measure(
-        kStages[1], [&] { return valueOf(graph_->process(labels, GraphParams{})); });
+    const auto graph =
+        timings.measure(kStages[1], [&] { return valueOf(graph_->process(labels, graphParams_)); });
     const auto motion = timings.measure(
         kStages[2], [&] { return valueOf(motion_->process(graph, motionParams_)); });
     const auto objects = timings.measure(
@@ -82,6 +84,7 @@ class Pipeline {
   std::unique_ptr<MotionStage> motion_;
   std::unique_ptr<ObjectStage> objects_;
   SegmentationParams segmentationParams_;
+  GraphParams graphParams_;
   MotionParams motionParams_;
   int64_t frames_ = 0;
   Notes notes_;
@@ -97,15 +100,15 @@ struct Measured {
   [[nodiscard]] double total() const { return timings.total({kLoadRow, kBackgroundRow}); }
 };
 
-Measured measure(const Options& options, Clock clock = Clock::Wall, int warmUp = kWarmUpFrames) {
+Measured measure(const Options& options, Clock clock = Clock::Wall) {
   const auto source = valueOf(openSource(options));
   Pipeline pipeline(options);
   Measured measured{source->describe(), {}, pipeline.threads(), {}, Timings(clock)};
   RawFrame frame;
-  for (int i = 0; i < warmUp + options.frames; ++i) {
+  for (int i = 0; i < options.warmUp + options.frames; ++i) {
     valueOf(source->next(frame));
-    if (i == warmUp) measured.timings.clear();
-    if (i == warmUp) pipeline.clear();
+    if (i == options.warmUp) measured.timings.clear();
+    if (i == options.warmUp) pipeline.clear();
     pipeline.process(frame, measured.timings);
   }
   measured.size = frame.layout.size;
@@ -166,22 +169,27 @@ int runTable(Options options) {
   return 0;
 }
 
-/// What each stage takes for frames made to be expensive, by what it takes for the scene.
+/// What each stage and their sum take for frames made to be expensive, by what they take for the
+/// scene.
 int runWorst(Options options) {
-  constexpr int kWarmUp = 6;
-  const Measured typical = measure(options, Clock::Cpu, kWarmUp);
+  const auto printRow = [](const std::string& name, const Measured& measured, int digits,
+                           const auto& figure) {
+    std::printf("%-14s", name.c_str());
+    for (const std::string& stage : kStages)
+      std::printf(" %10.*f", digits, figure(measured.timings.of(stage), stage));
+    std::printf(" %10.*f %9zu %7zu\n", digits, figure(measured.total(), {}),
+                measured.notes.mostRegions, measured.notes.objects);
+  };
+  const Measured typical = measure(options, Clock::Cpu);
   std::printf("%-14s", "times typical");
   for (const std::string& stage : kStages) std::printf(" %10s", stage.c_str());
-  std::printf(" %9s\n%-14s", "regions", "typical CPU ms");
-  for (const std::string& stage : kStages) std::printf(" %10.3f", typical.timings.of(stage));
-  std::printf(" %9zu\n", typical.notes.mostRegions);
+  std::printf(" %10s %9s %7s\n", "sum", "regions", "objects");
+  printRow("typical CPU ms", typical, 3, [](double ms, const std::string&) { return ms; });
   for (const std::string& pattern : patternNames()) {
     options.pattern = pattern;
-    const Measured measured = measure(options, Clock::Cpu, kWarmUp);
-    std::printf("%-14s", pattern.c_str());
-    for (const std::string& stage : kStages)
-      std::printf(" %10.2f", measured.timings.of(stage) / typical.timings.of(stage));
-    std::printf(" %9zu\n", measured.notes.mostRegions);
+    printRow(pattern, measure(options, Clock::Cpu), 2, [&](double ms, const std::string& stage) {
+      return ms / (stage.empty() ? typical.total() : typical.timings.of(stage));
+    });
   }
   return 0;
 }

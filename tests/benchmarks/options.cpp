@@ -35,16 +35,17 @@ struct NumberOption {
   int Options::*field;
   int least, most;
 };
-constexpr NumberOption kNumbers[] = {{"--regions", &Options::regions, 1, 65535},
-                                     {"--shift", &Options::shiftPx, 1, 64},
-                                     {"--threads", &Options::threads, 0, 1024},
-                                     {"--frames", &Options::frames, 1, 1000000},
-                                     {"--min-area", &Options::minAreaPx, 0, 1000000}};
+constexpr NumberOption kNumbers[] = {
+    {"--regions", &Options::regions, 1, 65535},     {"--similarity", &Options::similarity, 0, 254},
+    {"--shift", &Options::shiftPx, 1, 64},          {"--threads", &Options::threads, 0, 1024},
+    {"--frames", &Options::frames, 1, 1000000},     {"--warm-up", &Options::warmUp, 0, 1000000},
+    {"--min-area", &Options::minAreaPx, 0, 1000000}};
 
 bool isKnown(std::string_view name) {
   for (const NumberOption& option : kNumbers)
     if (option.name == name) return true;
-  return name == "--input" || name == "--size" || name == "--scene" || name == "--scope";
+  return name == "--input" || name == "--size" || name == "--scene" || name == "--scope" ||
+         name == "--connectivity";
 }
 
 bool setScene(Options& options, std::string_view value) {
@@ -60,6 +61,7 @@ bool setScene(Options& options, std::string_view value) {
 bool Options::*flagOf(std::string_view name) {
   if (name == "--table") return &Options::asksTable;
   if (name == "--worst") return &Options::asksWorst;
+  if (name == "--extreme") return &Options::asksExtreme;
   if (name == "--cpu") return &Options::asksCpu;
   if (name == "--help" || name == "-h") return &Options::asksHelp;
   return nullptr;
@@ -70,12 +72,18 @@ bool setScope(Options& options, std::string_view value) {
   return value == "foreground" || value == "frame";
 }
 
+bool setConnectivity(Options& options, std::string_view value) {
+  options.connectivity = value == "8" ? 8 : 4;
+  return value == "4" || value == "8";
+}
+
 bool set(Options& options, std::string_view name, std::string_view value) {
   if (name == "--input") options.input = value;
   if (name == "--input") return !value.empty();
   if (name == "--size") return setSize(options.size, value);
   if (name == "--scene") return setScene(options, value);
   if (name == "--scope") return setScope(options, value);
+  if (name == "--connectivity") return setConnectivity(options, value);
   for (const NumberOption& option : kNumbers) {
     if (option.name != name) continue;
     const auto parsed = number(value, option.least, option.most);
@@ -83,6 +91,14 @@ bool set(Options& options, std::string_view name, std::string_view value) {
     return parsed.has_value();
   }
   return false;
+}
+
+void setExtreme(Options& options) {
+  options.regions = 65535;
+  options.minAreaPx = 1;
+  options.similarity = 0;
+  options.connectivity = 8;
+  options.shiftPx = 64;
 }
 
 }  // namespace
@@ -104,6 +120,7 @@ Result<Options> parseOptions(std::span<const char* const> arguments) {
     hasSize = hasSize || name == "--size";
   }
   if (hasSize && !options.input.empty()) return Error{"--size is for scenes"};
+  if (options.asksExtreme) setExtreme(options);
   if (options.asksTable && (hasSize || !options.input.empty()))
     return Error{"--table has its own sizes"};
   return options;
@@ -112,8 +129,9 @@ Result<Options> parseOptions(std::span<const char* const> arguments) {
 std::string usage(const std::string& program) {
   return "usage: " + program +
          " [--input FILE | --size WxH | --table] [--scene NAME] [--worst] [--cpu]\n"
-         "       [--scope frame | foreground] [--regions N] [--min-area N] [--shift R]\n"
-         "       [--threads T] [--frames N]\n"
+         "       [--scope frame | foreground] [--regions N] [--min-area N] [--similarity N]\n"
+         "       [--connectivity 4 | 8] [--shift R] [--extreme] [--threads T] [--frames N]\n"
+         "       [--warm-up N]\n"
          "  --input    frames to measure on: .y4m, or what OpenCV reads (default: a scene)\n"
          "  --size     of the scene (default 640x480)\n"
          "  --table    all sizes and numbers of regions that the paper has times of\n"
@@ -121,15 +139,23 @@ std::string usage(const std::string& program) {
          "in\n"
          "             $REGIONGRAPH_CLIP, the cache folder and the package opencv-doc);\n"
          "             synthetic: tiles and bodies (default: the clip where there is one);\n"
-         "             flat, checkerboard, noise, comb, spiral, dots: frames made to be expensive\n"
-         "  --worst    these against the scene, stage by stage\n"
+         "             flat, checkerboard, noise, comb, spiral, dots, pan, 60-objects: frames made "
+         "to\n"
+         "             be expensive\n"
+         "  --worst    these against the scene, stage by stage and in sum\n"
          "  --cpu      the processor's time instead of the wall's\n"
          "  --scope    foreground: only what bgremove leaves is segmented (default: frame)\n"
          "  --regions  in the synthetic scene, and at most in the segmentation (default 160)\n"
          "  --min-area least pixels of a region (default 0: by the frame's size)\n"
          "  --shift    largest motion searched, in pixels (default 20)\n"
+         "  --similarity    largest step between neighbours in a region (default 2)\n"
+         "  --connectivity  of the graph (default 4)\n"
+         "  --extreme  what costs most: --regions 65535 --min-area 1 --similarity 0 "
+         "--connectivity 8\n"
+         "             --shift 64\n"
          "  --threads  0 = all cores (default 0)\n"
-         "  --frames   measured after a warm-up (default 50)\n";
+         "  --frames   measured after a warm-up (default 50)\n"
+         "  --warm-up  frames before those (default 60)\n";
 }
 
 int runProgram(std::span<char* const> arguments, int (*run)(const Options&)) {

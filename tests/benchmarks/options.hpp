@@ -11,7 +11,8 @@
 
 namespace rg::bench {
 
-/// Frames before those that are measured: the background model is learnt by then.
+/// Frames before those that are measured, unless told otherwise: the background model is learnt by
+/// then.
 inline constexpr int kWarmUpFrames = 60;
 
 /// Where frames come from, unless a file is given.
@@ -24,16 +25,21 @@ enum class SceneKind : uint8_t {
 struct Options {
   std::string input;  ///< A video; empty = a scene.
   SceneKind scene = SceneKind::Any;
-  std::string pattern;     ///< Instead of a scene: one of patternNames().
-  Size size{640, 480};     ///< Of the scene.
-  int regions = 160;       ///< In the synthetic scene, and the most that hsvsegment may make.
-  int shiftPx = 20;        ///< Searched by prmmotion; things in the scene move by up to half of it.
-  int threads = 0;         ///< 0 = all cores.
-  int frames = 50;         ///< Measured, after a warm-up.
-  bool asksTable = false;  ///< Measure the paper's sizes and numbers of regions.
-  int minAreaPx = 0;       ///< Of regions; 0 = by the frame's size.
-  bool asksWorst = false;  ///< Compare frames made to be expensive with those of the scene.
-  bool asksCpu = false;    ///< Measure the processor's time, not the wall's.
+  std::string pattern;  ///< Instead of a scene: one of patternNames().
+  Size size{640, 480};  ///< Of the scene.
+  int regions = 160;    ///< In the synthetic scene, and the most that hsvsegment may make.
+  int shiftPx = 20;     ///< Searched by prmmotion; things in the scene move by up to half of it.
+  int threads = 0;      ///< 0 = all cores.
+  int frames = 50;      ///< Measured, after a warm-up.
+  int warmUp = kWarmUpFrames;
+  bool asksTable = false;      ///< Measure the paper's sizes and numbers of regions.
+  int minAreaPx = 0;           ///< Of regions; 0 = by the frame's size.
+  int similarity = 2;          ///< Of neighbours in one region, in grey levels.
+  int connectivity = 4;        ///< Of the graph, 4 or 8.
+  bool asksWorst = false;      ///< Compare frames made to be expensive with those of the scene.
+  bool asksExtreme = false;    ///< The settings that cost most: as many and as small regions as can
+                               ///< be, all 8 neighbours, the longest shifts.
+  bool asksCpu = false;        ///< Measure the processor's time, not the wall's.
   Scope scope = Scope::Frame;  ///< Foreground: as behind bgremove.
   bool asksHelp = false;       ///< Print the usage and do nothing.
 };

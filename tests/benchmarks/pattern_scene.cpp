@@ -2,6 +2,7 @@
 #include "core/pixel.hpp"
 #include "tests/benchmarks/scene.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -26,6 +27,37 @@ bool isOnSpiral(const Place& at) {
   return turn - std::floor(turn) < 0.5;
 }
 
+/// A fixed texture of spots of 6x6 pixels in blocks of 48x48, of levels around 120.
+int texture(int x, int y, uint32_t what) {
+  const auto level = [&](int side, uint32_t seed, uint32_t levels) {
+    const auto cell = [&](int v) { return static_cast<uint32_t>((v + 65536) / side); };
+    return static_cast<int>(mixHash(cell(x), cell(y), seed) % levels);
+  };
+  return 60 + level(48, what, 80) + level(6, what + 1, 40);
+}
+
+/// The texture moves by a thirtieth of the frame's width in each frame, and down by half as much.
+int panLevel(const Place& at) {
+  const int step = std::max(1, at.size.width / 30);
+  return texture(at.x + step * at.time % 32768, at.y - step / 2 * at.time % 32768, 5);
+}
+
+/// Ten things in each of six rows, which move along them at speeds of their own and cover a
+/// quarter of the texture behind them.
+int crowdLevel(const Place& at) {
+  constexpr int kRows = 6, kColumns = 10;
+  const int row = at.y * kRows / at.size.height;
+  const int pitchX = std::max(4, at.size.width / kColumns);
+  const int pitchY = std::max(4, at.size.height / kRows);
+  const int step = (row % 2 == 0 ? 1 : -1) * (2 + row);
+  const int around = pitchX * kColumns;
+  const int x = ((at.x - step * at.time) % around + around) % around;
+  const int y = at.y - (row * at.size.height + kRows - 1) / kRows;
+  const bool isThing = 2 * (x % pitchX) < pitchX && 2 * y < pitchY;
+  const auto thing = static_cast<uint32_t>(100 + 2 * (row * kColumns + x / pitchX));
+  return isThing ? 255 - texture(x, y, thing) : texture(at.x, at.y, 7) / 2;
+}
+
 /// What is seen at a place, from 0 to 255, before noise.
 struct Pattern {
   std::string_view name;
@@ -40,7 +72,9 @@ constexpr std::array kPatterns = {
             [](const Place& at) { return at.y > 4 && (at.x + at.time) % 4 < 2 ? 60 : 180; }},
     Pattern{"spiral", [](const Place& at) { return isOnSpiral(at) ? 60 : 180; }},
     Pattern{"dots",
-            [](const Place& at) { return at.x % 2 == 0 && (at.y + at.time) % 2 == 0 ? 200 : 60; }}};
+            [](const Place& at) { return at.x % 2 == 0 && (at.y + at.time) % 2 == 0 ? 200 : 60; }},
+    Pattern{"pan", panLevel},
+    Pattern{"60-objects", crowdLevel}};
 
 class PatternScene final : public FrameSource {
  public:
