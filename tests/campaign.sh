@@ -1,0 +1,154 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Tries to break the elements: fuzzers, threads, failing allocations, endless frames. Stops at the
+# first finding, which it names with the command that repeats it.
+#
+# usage: campaign.sh [--hours H] [PART...]     H of fuzzing in all (default 1), the rest as long as
+#                                              it takes
+#        campaign.sh --short [PART...]         what .ci/run does, some minutes
+#        campaign.sh --keep                    the fuzzers' new inputs, as few as reach what all
+#                                              reach, into tests/fuzz/corpus
+#        campaign.sh --configure               only makes the build folder of the fuzzers
+# PART: fuzz threads allocations soak camera (default: all)
+# FUZZ_BUILD, TSAN_BUILD, BUILD_DIR: build folders (default: build-fuzz, build-tsan, build)
+set -euo pipefail
+
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+fuzz_build=$(realpath -m "${FUZZ_BUILD:-$root/build-fuzz}")
+tsan_build=$(realpath -m "${TSAN_BUILD:-$root/build-tsan}")
+build=$(realpath -m "${BUILD_DIR:-$root/build}")
+targets=(chain lines metas objects text)
+most_kept=100  # Inputs of a target in tests/fuzz/corpus.
+
+hours=1
+is_short=0
+is_keeping=0
+is_configuring=0
+parts=()
+while (($#)); do
+  case $1 in
+    --hours) hours=$2; shift ;;
+    --short) is_short=1 ;;
+    --keep) is_keeping=1 ;;
+    --configure) is_configuring=1 ;;
+    fuzz | threads | allocations | soak | camera) parts+=("$1") ;;
+    *) sed -n '3,16s/^# \?//p' "$0"; exit 2 ;;
+  esac
+  shift
+done
+((${#parts[@]})) || parts=(fuzz threads allocations soak camera)
+
+export G_SLICE=always-malloc G_DEBUG=gc-friendly ORC_CODE=backup GST_PLUGIN_PATH=
+
+configure_fuzzers() {
+  [[ -f $fuzz_build/build.ninja ]] ||
+    CC=clang CXX=clang++ meson setup "$fuzz_build" "$root" -Dfuzz=true -Db_lundef=false \
+      -Db_sanitize=address,undefined -Doptimization=1 \
+      -Dcpp_args='-fsanitize=fuzzer-no-link -D_GLIBCXX_ASSERTIONS' \
+      >/dev/null
+}
+
+build_fuzzers() {
+  configure_fuzzers
+  ninja -C "$fuzz_build" "${targets[@]/#/tests/fuzz/fuzz-}" >/dev/null
+}
+
+# Leaks are what tests/leaks.sh and the soak look for; GLib's own would end every run here.
+fuzz_environment=(env GST_REGISTRY="$fuzz_build/gst.reg" ASAN_OPTIONS=detect_leaks=0
+  UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1)
+
+fuzz_one() {  # TARGET SECONDS
+  local target=$1 seconds=$2 corpus=$fuzz_build/corpus/$1 log=$fuzz_build/fuzz-$1.log status=0
+  mkdir -p "$corpus" "$fuzz_build/slow/$target" "$fuzz_build/found"
+  RG_SLOW_DIR=$fuzz_build/slow/$target "${fuzz_environment[@]}" \
+    "$fuzz_build/tests/fuzz/fuzz-$target" -max_total_time="$seconds" -max_len=1500 -len_control=0 \
+    -timeout=60 -rss_limit_mb=2048 -print_final_stats=1 \
+    -artifact_prefix="$fuzz_build/found/$target-" \
+    "$corpus" "$root/tests/fuzz/corpus/$target" >"$log" 2>&1 || status=$?
+  local runs
+  runs=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")
+  printf '  %-8s %s runs in %s s, %s inputs\n' "$target" "${runs:-?}" "$seconds" \
+    "$(find "$corpus" -type f | wc -l)"
+  ((status == 0)) && return
+  grep -E 'ERROR|runtime error|SUMMARY|do not fit|does not fit' "$log" | head -5
+  echo "  repeat with: tests/fuzz/fuzz-$target \$(ls -t $fuzz_build/found/$target-* | head -1)" >&2
+  return 1
+}
+
+run_fuzz() {
+  build_fuzzers
+  local seconds target
+  seconds=$(/usr/bin/python3 -c "print(int(3600 * $hours / ${#targets[@]}))")
+  ((is_short)) && seconds=15
+  for target in "${targets[@]}"; do fuzz_one "$target" "$seconds"; done
+}
+
+run_threads() {
+  [[ -f $tsan_build/build.ninja ]] ||
+    CXX=g++ meson setup "$tsan_build" "$root" -Db_sanitize=thread -Doptimization=1 \
+      -Db_lundef=false >/dev/null
+  ninja -C "$tsan_build" tests/stress/stress >/dev/null
+  local stress=("$tsan_build/tests/stress/stress")
+  export TSAN_OPTIONS=halt_on_error=1:history_size=4:second_deadlock_stack=1
+  export GST_REGISTRY=$tsan_build/gst.reg
+  if ((is_short)); then
+    "${stress[@]}" --pushes 1000
+    return
+  fi
+  "${stress[@]}" --pushes 333334
+  "${stress[@]}" --pushes 3334 --size 640x480
+}
+
+run_allocations() {
+  ninja -C "$build" tests/alloc/allocation-failures >/dev/null
+  local every=1
+  ((is_short)) && every=29
+  "$build/tests/alloc/allocation-failures" --every "$every"
+}
+
+run_soak() {
+  ninja -C "$build" tests/stress/soak >/dev/null
+  if ((is_short)); then
+    "$build/tests/stress/soak" --frames 20000
+    return
+  fi
+  "$build/tests/stress/soak" --frames 1000000
+  "$build/tests/stress/soak" --frames 10000 --size 640x480
+}
+
+run_camera() {
+  local times=200
+  ((is_short)) && times=3
+  BUILD_DIR=$build "$root/tests/stress/camera.py" --restarts "$times"
+}
+
+keep() {
+  local target kept
+  for target in "${targets[@]}"; do
+    kept=$fuzz_build/kept/$target
+    rm -rf "$kept"
+    mkdir -p "$kept"
+    "${fuzz_environment[@]}" "$fuzz_build/tests/fuzz/fuzz-$target" -merge=1 -max_len=1500 "$kept" \
+      "$root/tests/fuzz/corpus/$target" "$fuzz_build/corpus/$target" >/dev/null 2>&1
+    # libFuzzer's merge prefers small inputs; of too many the smallest are kept.
+    find "$kept" -type f -printf '%s %f\n' | sort -n | tail -n "+$((most_kept + 1))" |
+      while read -r _ name; do rm "$kept/$name"; done
+    find "$root/tests/fuzz/corpus/$target" -type f ! -name 'found-*' -delete
+    cp "$kept"/* "$root/tests/fuzz/corpus/$target/"
+    printf '  %-8s %s inputs kept\n' "$target" "$(find "$kept" -type f | wc -l)"
+  done
+}
+
+if ((is_configuring)); then
+  configure_fuzzers
+  exit
+fi
+if ((is_keeping)); then
+  build_fuzzers
+  keep
+  exit
+fi
+for part in "${parts[@]}"; do
+  printf '%s (%d s so far)\n' "$part" "$SECONDS"
+  "run_$part"
+done

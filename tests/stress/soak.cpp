@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Many frames of several kinds of scenes through the whole chain, as fast as they go: what is in
+// use of the heap must not grow. Prints the slope for each scene; fails where it is too steep.
+//
+// usage: soak [--frames N] [--size WxH] [--scene NAME]
+#include "core/pixel.hpp"
+#include "tests/fuzz/moving_scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <malloc.h>
+#include <string>
+
+namespace rg::stress {
+namespace {
+
+using testing::Caps;
+using testing::Chain;
+
+constexpr char kChain[] =
+    "bgremove threads=1 ! hsvsegment threads=1 ! srg threads=1 ! prmmotion threads=1 ! "
+    "mrfmerge threads=1 ! regionwrite location=/dev/null contours=true";
+constexpr char kMovingChain[] =
+    "hsvsegment threads=1 ! srg threads=1 ! prmmotion threads=1 ! mrfmerge threads=1 ! "
+    "regionwrite location=/dev/null contours=true";
+constexpr int kSamples = 200;
+constexpr double kMostSlope = 1.0;  // Bytes in 1000 frames.
+
+struct Options {
+  int frames = 20000;
+  int width = 64, height = 48;
+  std::string scene;
+};
+
+/// Bytes that describe a scene (fuzz::MovingScene): things, then the ground.
+fuzz::MovingScene describe(uint32_t seed, uint8_t things, uint8_t noise, uint8_t pan) {
+  std::vector<uint8_t> bytes{things};
+  for (uint32_t i = 0; i < things * 8u; ++i)
+    bytes.push_back(static_cast<uint8_t>(mixHash(seed, i, 1) >> 7));
+  bytes.insert(bytes.end(), {90, 31, noise, pan, 0});
+  fuzz::Bytes source(bytes.data(), bytes.size());
+  return fuzz::MovingScene::from(source);
+}
+
+/// A scene is remade every so many frames, as things leave the picture.
+struct Kind {
+  const char* name;
+  const char* chain;
+  int lifeFrames;
+  uint8_t things, noise, pan;
+};
+constexpr Kind kKinds[] = {
+    {"typical", kChain, 150, 4, 6, 0}, {"noise", kChain, 150, 4, 255, 0},
+    {"cuts", kChain, 8, 6, 6, 0},      {"pan", kMovingChain, 150, 4, 6, 12},
+    {"empty", kChain, 150, 0, 6, 0},
+};
+
+/// The median of the slopes between all pairs of points (Theil and Sen), in bytes a frame.
+double slopeOf(const std::vector<std::pair<double, double>>& points) {
+  std::vector<double> slopes;
+  for (size_t i = 0; i < points.size(); ++i)
+    for (size_t j = i + 1; j < points.size(); ++j)
+      slopes.push_back((points[j].second - points[i].second) / (points[j].first - points[i].first));
+  const auto middle = slopes.begin() + static_cast<std::ptrdiff_t>(slopes.size() / 2);
+  std::nth_element(slopes.begin(), middle, slopes.end());
+  return *middle;
+}
+
+double bytesInUse() {
+  const auto info = mallinfo2();
+  return static_cast<double>(info.uordblks + info.hblkhd);
+}
+
+bool run(const Kind& kind, const Options& options) {
+  const Caps caps{"I420", options.width, options.height};
+  const GstVideoInfo info = caps.info();
+  Chain chain(kind.chain, caps);
+  const int every = std::max(1, options.frames / kSamples);
+  std::vector<std::pair<double, double>> points;
+  fuzz::MovingScene scene = describe(0, kind.things, kind.noise, kind.pan);
+  for (int i = 0; i < options.frames; ++i) {
+    if (i % kind.lifeFrames == 0)
+      scene = describe(static_cast<uint32_t>(i), kind.things, kind.noise, kind.pan);
+    testing::BufferPtr buffer = fuzz::paintScene(scene, info);
+    scene.advance();
+    GST_BUFFER_PTS(buffer.get()) = static_cast<GstClockTime>(i) * 40 * GST_MSECOND;
+    if (!chain.pass(std::move(buffer))) return false;
+    while (chain.message(GST_MESSAGE_ANY)) {
+    }
+    // The first fifth is warm-up.
+    if (i % every == 0 && 5 * i >= options.frames) points.emplace_back(i, bytesInUse());
+  }
+  const double slope = 1000 * slopeOf(points);
+  const bool isFlat = std::abs(slope) < kMostSlope;
+  std::printf("%-8s %d frames of %dx%d: %.0f bytes in use, %+.3f bytes in 1000 frames%s\n",
+              kind.name, options.frames, options.width, options.height, points.back().second, slope,
+              isFlat ? "" : ": TOO MUCH");
+  std::fflush(stdout);
+  return isFlat;
+}
+
+}  // namespace
+}  // namespace rg::stress
+
+int main(int argc, char** argv) {
+  using namespace rg;
+  stress::Options options;
+  for (int i = 1; i + 1 < argc; i += 2) {
+    if (std::strcmp(argv[i], "--frames") == 0) options.frames = std::atoi(argv[i + 1]);
+    if (std::strcmp(argv[i], "--scene") == 0) options.scene = argv[i + 1];
+    if (std::strcmp(argv[i], "--size") == 0 &&
+        std::sscanf(argv[i + 1], "%dx%d", &options.width, &options.height) != 2)
+      return 2;
+  }
+  gst_init(nullptr, nullptr);
+  testing::registerElements();
+  bool isFlat = true;
+  for (const stress::Kind& kind : stress::kKinds)
+    if (options.scene.empty() || options.scene == kind.name) isFlat &= stress::run(kind, options);
+  return isFlat ? 0 : 1;
+}

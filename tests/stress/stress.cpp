@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Frames through each chain while other threads set and read every property and ask for the
+// latency, in an order that a printed seed decides. Run under ThreadSanitizer (tests/stress.sh).
+//
+// usage: stress [--pushes N] [--size WxH] [--seed S]
+#include "core/pixel.hpp"
+#include "tests/fuzz/moving_scene.hpp"
+#include "tests/fuzz/set_property.hpp"
+
+#include <atomic>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <ctime>
+#include <thread>
+
+namespace rg::stress {
+namespace {
+
+using testing::Caps;
+using testing::Chain;
+
+constexpr const char* kChains[] = {
+    "bgremove threads=1 ! hsvsegment threads=1 ! srg threads=1 ! prmmotion threads=1 ! "
+    "mrfmerge threads=1 ! regionwrite location=/dev/null",
+    "hsvsegment threads=1 ! srg threads=1 ! prmmotion threads=1 ! mrfmerge threads=1 ! "
+    "regionmask source=objects",
+    "regiontrack threads=1 ! regionoverlay",
+};
+
+struct Options {
+  int pushes = 3000;
+  int width = 64, height = 48;
+  uint32_t seed = static_cast<uint32_t>(std::time(nullptr));
+};
+
+/// Bytes without end, for what takes bytes.
+class Random {
+ public:
+  explicit Random(uint32_t seed) : seed_(seed) {}
+  /// Valid until the next call.
+  fuzz::Bytes bytes() {
+    for (uint8_t& byte : block_) byte = static_cast<uint8_t>(mixHash(seed_, ++count_, 7) >> 11);
+    return {block_, sizeof block_};
+  }
+
+ private:
+  uint32_t seed_, count_ = 0;
+  uint8_t block_[96] = {};
+};
+
+void readProperties(GstElement* element) {
+  guint count = 0;
+  GParamSpec** specs = g_object_class_list_properties(G_OBJECT_GET_CLASS(element), &count);
+  for (guint i = 0; i < count; ++i) {
+    if ((specs[i]->flags & G_PARAM_READABLE) == 0) continue;
+    GValue value = G_VALUE_INIT;
+    g_value_init(&value, specs[i]->value_type);
+    g_object_get_property(G_OBJECT(element), specs[i]->name, &value);
+    g_value_unset(&value);
+  }
+  g_free(specs);
+}
+
+/// Pushes frames through a chain until it has had `pushes` of them.
+void run(const char* line, const Options& options) {
+  const Caps caps{"I420", options.width, options.height};
+  Chain chain(line, caps);
+  std::vector<GstElement*> elements;
+  fuzz::listElements(chain.harness()->element, elements);
+  std::atomic<bool> isOver = false;
+  std::thread setter([&] {
+    for (Random random(options.seed); !isOver;) {
+      fuzz::Bytes bytes = random.bytes();
+      GstElement* element = bytes.pick(elements);
+      fuzz::setRandomProperty(element, bytes);
+      std::this_thread::yield();
+    }
+  });
+  std::thread getter([&] {
+    while (!isOver) {
+      for (GstElement* element : elements) readProperties(element);
+      gst_harness_query_latency(chain.harness());
+    }
+  });
+  Random random(options.seed + 1);
+  fuzz::Bytes bytes = random.bytes();
+  fuzz::MovingScene scene = fuzz::MovingScene::from(bytes);
+  const GstVideoInfo info = caps.info();
+  uint64_t out = 0;
+  for (int i = 0; i < options.pushes; ++i) {
+    testing::BufferPtr buffer = fuzz::paintScene(scene, info);
+    scene.advance();
+    if (i % 200 == 199) {
+      bytes = random.bytes();
+      scene = fuzz::MovingScene::from(bytes);
+    }
+    GST_BUFFER_PTS(buffer.get()) = static_cast<GstClockTime>(i) * 40 * GST_MSECOND;
+    if (chain.pass(std::move(buffer))) ++out;
+    while (chain.message(GST_MESSAGE_ANY)) {
+    }
+  }
+  isOver = true;
+  setter.join();
+  getter.join();
+  std::printf("%d pushed, %llu came out: %.40s ...\n", options.pushes,
+              static_cast<unsigned long long>(out), line);
+  if (out == 0) std::exit(1);
+}
+
+}  // namespace
+}  // namespace rg::stress
+
+int main(int argc, char** argv) {
+  using namespace rg;
+  stress::Options options;
+  for (int i = 1; i + 1 < argc; i += 2) {
+    if (std::strcmp(argv[i], "--pushes") == 0) options.pushes = std::atoi(argv[i + 1]);
+    if (std::strcmp(argv[i], "--seed") == 0)
+      options.seed = static_cast<uint32_t>(std::strtoul(argv[i + 1], nullptr, 10));
+    if (std::strcmp(argv[i], "--size") == 0 &&
+        std::sscanf(argv[i + 1], "%dx%d", &options.width, &options.height) != 2)
+      return 2;
+  }
+  std::printf("seed %u\n", options.seed);
+  gst_init(nullptr, nullptr);
+  testing::registerElements();
+  for (const char* line : stress::kChains) stress::run(line, options);
+  return 0;
+}
