@@ -4,6 +4,7 @@
 
 #include "core/geometry.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
@@ -12,6 +13,7 @@
 #include <new>
 #include <span>
 #include <type_traits>
+#include <utility>
 
 namespace rg {
 
@@ -54,22 +56,29 @@ class Image {
   Image() = default;
   explicit Image(Size size) { resize(size); }
 
+  Image(Image&& other) noexcept { swap(other); }
+  Image& operator=(Image&& other) noexcept {
+    Image taken(std::move(other));
+    swap(taken);
+    return *this;
+  }
+
   /// Gives the image a size. Keeps its memory when that is large enough, so that a warm image never
-  /// allocates; the contents are undefined. Throws std::bad_alloc.
+  /// allocates; the contents are undefined. Throws std::bad_alloc, and is empty then.
   void resize(Size size) {
     assert(size.width >= 0 && size.height >= 0);
-    constexpr size_t kAlign = 64;
+    if (size == size_) return;
     const size_t stride =
         (static_cast<size_t>(size.width) * sizeof(T) + kAlign - 1) / kAlign * kAlign;
     const size_t bytes = stride * static_cast<size_t>(size.height);
     if (bytes > capacity_) {
-      memory_.reset();
-      capacity_ = 0;
+      *this = Image();
       memory_.reset(static_cast<std::byte*>(::operator new (bytes, std::align_val_t{kAlign})));
       capacity_ = bytes;
     }
     size_ = size;
     strideBytes_ = static_cast<ptrdiff_t>(stride);
+    clearPadding();
   }
 
   void fill(T value) {
@@ -98,9 +107,30 @@ class Image {
   operator ImageView<const T>() const { return view(); }  // NOLINT(google-explicit-constructor)
 
  private:
+  static constexpr size_t kAlign = 64;
   struct Free {
-    void operator()(std::byte* memory) const { ::operator delete (memory, std::align_val_t{64}); }
+    void operator()(std::byte* memory) const {
+      ::operator delete (memory, std::align_val_t{kAlign});
+    }
   };
+
+  /// Zeros behind the rows: kernels load whole vectors, and what they make of bytes that nobody
+  /// wrote would hide from valgrind what they make of pixels that nobody wrote.
+  void clearPadding() {
+    const size_t used = static_cast<size_t>(size_.width) * sizeof(T);
+    const size_t stride = static_cast<size_t>(strideBytes_);
+    if (used == stride) return;
+    std::byte* row = memory_.get();
+    for (int y = 0; y < size_.height; ++y, row += stride) std::memset(row + used, 0, stride - used);
+  }
+  /// What was moved from is empty: its size must not outlive its memory.
+  void swap(Image& other) noexcept {
+    std::swap(memory_, other.memory_);
+    std::swap(capacity_, other.capacity_);
+    std::swap(size_, other.size_);
+    std::swap(strideBytes_, other.strideBytes_);
+  }
+
   std::unique_ptr<std::byte, Free> memory_;
   size_t capacity_ = 0;
   Size size_;
