@@ -18,6 +18,14 @@ ColourGrid planesOf(const std::array<Image<uint8_t>, 3>& images, int channels, S
   return planes;
 }
 
+/// Whole rows of cells are compared, and the result out of scope is thrown away: the pixels there
+/// are old ones, but never what nobody wrote.
+void fillAtNewSize(Image<uint8_t>& plane, Size size) {
+  if (plane.size() == size) return;
+  plane.resize(size);
+  plane.fill(0);
+}
+
 }  // namespace
 
 void ColourCells::build(const Picture& picture, ImageView<const uint8_t> scope, int sidePx,
@@ -29,7 +37,7 @@ void ColourCells::build(const Picture& picture, ImageView<const uint8_t> scope, 
   spans_.find(size, scope, executor);
   const Size cellSize{(size.width + side_ - 1) / side_, (size.height + side_ - 1) / side_};
   for (size_t c = 0; c < static_cast<size_t>(channels); ++c) {
-    smooth_[c].resize(size);
+    fillAtNewSize(smooth_[c], size);
     if (side_ > 1) means_[c].resize(cellSize);
   }
   pixels_ = planesOf(smooth_, channels, size);

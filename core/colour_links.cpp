@@ -16,6 +16,14 @@ void voidPairs(const uint8_t* scopeA, const uint8_t* scopeB, int count, uint8_t*
   }
 }
 
+/// The guard looks at pixels out of scope, too, though not at its result there: their hues are old
+/// ones, but never what nobody wrote.
+void fillAtNewSize(Image<int16_t>& hues, Size size) {
+  if (hues.size() == size) return;
+  hues.resize(size);
+  hues.fill(kAchromatic);
+}
+
 }  // namespace
 
 void ColourLinks::build(const ColourGrid& planes, const LinkParams& params,
@@ -35,7 +43,7 @@ void ColourLinks::build(const ColourGrid& planes, const LinkParams& params,
   };
   const bool guards = planes.channels == 3 && band_.count > 0;
   if (guards) {
-    hues_.resize(size);
+    fillAtNewSize(hues_, size);
     forRows([&](int y) { findHues(y); });
   }
   forRows([&](int y) {
