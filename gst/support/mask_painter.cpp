@@ -16,10 +16,22 @@ uint8_t* rowOf(GstVideoFrame* frame, int y) {
          ptrdiff_t{y} * GST_VIDEO_FRAME_PLANE_STRIDE(frame, 0);
 }
 
+int bytesOfRow(const GstVideoFrame* to) {
+  return GST_VIDEO_FRAME_WIDTH(to) * GST_VIDEO_FRAME_COMP_PSTRIDE(to, 0);
+}
+
 void paintBlack(GstVideoFrame* to) {
-  const auto bytes = static_cast<size_t>(GST_VIDEO_FRAME_WIDTH(to)) *
-                     static_cast<size_t>(GST_VIDEO_FRAME_COMP_PSTRIDE(to, 0));
+  const auto bytes = static_cast<size_t>(bytesOfRow(to));
   for (int y = 0; y < GST_VIDEO_FRAME_HEIGHT(to); ++y) std::memset(rowOf(to, y), 0, bytes);
+}
+
+/// A file of frames holds what is behind their rows, too: not what the process had there before.
+/// Behind rows of another stride than the usual one there may be somebody else's pixels.
+void clearPadding(GstVideoFrame* to) {
+  const int bytes = bytesOfRow(to), stride = GST_VIDEO_FRAME_PLANE_STRIDE(to, 0);
+  if (stride != GST_ROUND_UP_4(bytes)) return;
+  for (int y = 0; y < GST_VIDEO_FRAME_HEIGHT(to); ++y)
+    std::memset(rowOf(to, y) + bytes, 0, static_cast<size_t>(stride - bytes));
 }
 
 /// shade() turns a value of the result into a pixel as it lies in memory.
@@ -112,6 +124,7 @@ void setFormats(GstStructure* caps, MaskSource source) {
 }
 
 bool paintMask(MaskSource source, GstBuffer* from, GstVideoFrame* to) {
+  clearPadding(to);
   switch (source) {
     case MaskSource::Foreground:
       return paintResult<Foreground>(from, to, paintForeground);

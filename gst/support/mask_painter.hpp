@@ -14,7 +14,8 @@ enum class MaskSource : int { Foreground, Labels, Objects, Hue };
 /// Gives caps the formats that the source is shown in: GRAY8, for labels GRAY16_BE or GRAY16_LE.
 void setFormats(GstStructure* caps, MaskSource source);
 
-/// Writes every pixel of `to`, whose format is one of setFormats(). A result made for another size
+/// Writes every pixel of `to`, whose format is one of setFormats(), and zeros behind rows that are
+/// padded to 4 bytes. A result made for another size
 /// is scaled to the nearest pixel, a skipped one is black, and so is a missing one. Returns whether
 /// there was a result on the buffer.
 bool paintMask(MaskSource source, GstBuffer* from, GstVideoFrame* to);

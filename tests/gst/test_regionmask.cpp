@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "gst/support/mask_painter.hpp"
 #include "tests/support/harness.hpp"
 #include "tests/support/results.hpp"
 
@@ -6,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <vector>
 
 namespace rg {
 namespace {
@@ -266,6 +268,30 @@ TEST(RegionMask, AnotherSourceWhilePlayingDoesNotChangeWhatWasNegotiated) {
   gst_object_unref(element);
   ASSERT_TRUE(before && after);
   EXPECT_EQ(testing::bytesOf(after.get()), testing::bytesOf(before.get()));
+}
+
+/// The bytes of a black GRAY8 frame in memory that was in use before.
+std::vector<uint8_t> paintedInUsedMemory(Size size, int stride) {
+  GstVideoInfo info;
+  gst_video_info_set_format(&info, GST_VIDEO_FORMAT_GRAY8, static_cast<guint>(size.width),
+                            static_cast<guint>(size.height));
+  info.stride[0] = stride;
+  info.size = static_cast<gsize>(stride) * static_cast<gsize>(size.height);
+  const BufferPtr to(gst_buffer_new_allocate(nullptr, info.size, nullptr));
+  const BufferPtr from(gst_buffer_new());
+  gst_buffer_memset(to.get(), 0, 0xa5, info.size);
+  GstVideoFrame frame;
+  if (!gst_video_frame_map(&frame, &info, to.get(), GST_MAP_WRITE)) return {};
+  EXPECT_FALSE(paintMask(MaskSource::Foreground, from.get(), &frame));
+  gst_video_frame_unmap(&frame);
+  return testing::bytesOf(to.get());
+}
+
+TEST(RegionMask, LeavesNoOldMemoryBehindItsRows) {
+  EXPECT_EQ(paintedInUsedMemory({7, 5}, 8), std::vector<uint8_t>(40, 0));
+  const auto bytes = paintedInUsedMemory({7, 5}, 16);
+  ASSERT_EQ(bytes.size(), 80U);
+  for (size_t i = 0; i < bytes.size(); ++i) EXPECT_EQ(bytes[i], i % 16 < 7 ? 0 : 0xa5) << i;
 }
 
 }  // namespace
