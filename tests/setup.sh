@@ -11,6 +11,7 @@ packages=(
   libopencv-dev libhwy-dev libtbb-dev libpng-dev
   # checks and tests
   clang-format clang-tidy libgtest-dev libgmock-dev nlohmann-json3-dev binutils locales
+  valgrind libc6-dbg
   python3 python3-numpy python3-opencv python3-scipy python3-jsonschema
   python3-gi gir1.2-gstreamer-1.0 gir1.2-gst-plugins-base-1.0 gir1.2-gst-rtsp-server-1.0
   # running pipelines
