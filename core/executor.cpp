@@ -35,7 +35,7 @@ Executor::~Executor() = default;
 Executor::Executor(Executor&&) noexcept = default;
 Executor& Executor::operator=(Executor&&) noexcept = default;
 
-void Executor::forRows(int rows, const std::function<void(int, int)>& task) const {
+void Executor::forRows(int rows, Task<int, int> task) const {
   constexpr int kLeastRows = 16;  // Below this, waking a thread costs more than the rows.
   if (rows <= 0) return;
   if (!arena_ || rows < 2 * kLeastRows) return task(0, rows);
@@ -46,7 +46,7 @@ void Executor::forRows(int rows, const std::function<void(int, int)>& task) cons
   });
 }
 
-void Executor::forEach(int count, const std::function<void(int)>& task) const {
+void Executor::forEach(int count, Task<int> task) const {
   if (!arena_ || count < 2) {
     for (int i = 0; i < count; ++i) task(i);
     return;
@@ -54,7 +54,7 @@ void Executor::forEach(int count, const std::function<void(int)>& task) const {
   arena_->execute([&] { tbb::parallel_for(0, count, [&](int i) { task(i); }); });
 }
 
-void Executor::forEach(int count, const std::function<void(int, int)>& task) const {
+void Executor::forEach(int count, Task<int, int> task) const {
   if (!arena_ || count < 2) {
     for (int i = 0; i < count; ++i) task(i, 0);
     return;
