@@ -9,6 +9,7 @@
 #include "core/image.hpp"
 #include "core/picture.hpp"
 #include "core/result.hpp"
+#include "core/result_plane.hpp"
 #include "core/stage.hpp"
 
 #include <cstdint>
@@ -50,7 +51,7 @@ struct Foreground {
   Size size;
   Status status = Status::Skipped;
   std::shared_ptr<const Picture> picture;  ///< What was looked at; later stages look at it too.
-  Image<uint8_t> mask;                     ///< kBackgroundPixel, kShadowPixel, kForegroundPixel.
+  ResultPlane<uint8_t> mask;               ///< kBackgroundPixel, kShadowPixel, kForegroundPixel.
   Box extent;                              ///< Outside of it the mask is background.
   std::vector<Box> areas;  ///< Bounding boxes of the foreground's 8-connected parts.
   std::shared_ptr<const Image<uint8_t>> interest;  ///< As in the parameters.

@@ -325,7 +325,6 @@ Result<std::shared_ptr<const Objects>> CpuObjectStage::process(std::shared_ptr<c
                                                                FrameTime time) {
   const std::shared_ptr<Objects> objects = pool_.take();
   objects->size = motion->size;
-  objects->objects.clear();
   objects->events.clear();
   objects->regionObject.clear();
   objects->regionExpected.clear();
@@ -347,6 +346,7 @@ Result<std::shared_ptr<const Objects>> CpuObjectStage::process(std::shared_ptr<c
   objects->motion = motion;
   if (!hasRegions) {
     tracker_.predict(stepNs, tracking);
+    objects->objects.clear();
     objects->slots.resize(motion->size);
     objects->slots.fill(0);
     tracker_.takeEvents(false, objects->events);

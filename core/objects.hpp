@@ -10,6 +10,7 @@
 #include "core/geometry.hpp"
 #include "core/region_motion.hpp"
 #include "core/result.hpp"
+#include "core/result_plane.hpp"
 #include "core/stage.hpp"
 
 #include <cstdint>
@@ -66,7 +67,7 @@ struct Objects {
   Status status = Status::Skipped;
   std::shared_ptr<const Motion> motion;
   std::vector<Object> objects;
-  Image<uint16_t> slots;                 ///< For each pixel: 1 + index into `objects`, 0 = none.
+  ResultPlane<uint16_t> slots;           ///< For each pixel: 1 + index into `objects`, 0 = none.
   std::vector<uint64_t> regionObject;    ///< For each region the id of its object, 0 = none.
   std::vector<uint64_t> regionExpected;  ///< For each region the object that it was predicted to
                                          ///< belong to, 0 = none.
@@ -84,13 +85,16 @@ struct Objects {
   std::vector<Event> events;
 
   void dropSources() { motion.reset(); }
-  /// Sources are shared, all else is copied.
+  /// The source is shared, all else is copied.
   void copyFrom(const Objects& other) {
+    copyTables(other);
+    motion = other.motion;
+    slots.copyFrom(other.slots);
+  }
+  void copyTables(const Objects& other) {
     size = other.size;
     status = other.status;
-    motion = other.motion;
     objects = other.objects;
-    slots.copyFrom(other.slots);
     regionObject = other.regionObject;
     regionExpected = other.regionExpected;
     regionGroup = other.regionGroup;

@@ -13,6 +13,7 @@
 #include "core/image.hpp"
 #include "core/picture.hpp"
 #include "core/result.hpp"
+#include "core/result_plane.hpp"
 #include "core/stage.hpp"
 
 #include <cstdint>
@@ -51,8 +52,9 @@ struct Labels {
   Scope scope = Scope::Frame;
   std::shared_ptr<const Picture> picture;
   std::shared_ptr<const Foreground> foreground;  ///< None under Scope::Frame without bgremove.
-  Image<uint16_t> ids;                           ///< kNoRegion or 1 … count.
-  Image<uint8_t> hue;  ///< What hue says of each pixel (core/hue_decision.hpp); empty unless asked.
+  ResultPlane<uint16_t> ids;                     ///< kNoRegion or 1 … count.
+  ResultPlane<uint8_t> hue;  ///< What hue says of each pixel (core/hue_decision.hpp); empty unless
+                             ///< asked.
   uint32_t count = 0;
 
   void dropSources() {

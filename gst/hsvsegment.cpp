@@ -133,7 +133,7 @@ class HsvSegment final : public PixelFilter<Settings, SegmentationStage> {
   }
 
   GstFlowReturn divideForeground(const FilterFrame& frame, const Settings& settings) {
-    auto upstream = require<Foreground>(frame, "bgremove");
+    auto upstream = requireUnpacked<Foreground>(frame, "bgremove");
     if (upstream.flow != GST_FLOW_OK) return upstream.flow;
     if (upstream.result && upstream.result->picture)
       divide(frame, upstream.result->picture, upstream.result, settings);

@@ -16,6 +16,9 @@
  * for the best groups is ended early, so that a frame's time stays in proportion to its regions;
  * the first such frame causes a warning.
  *
+ * From here on the results of all five stages are packed: a frame that waits in a queue holds less
+ * than a byte of them for each pixel. Readers see no difference; stages can't work on them again.
+ *
  * |[
  * gst-launch-1.0 -m filesrc location=clip.avi ! decodebin ! videoconvert ! bgremove ! hsvsegment !
  *   srg ! prmmotion ! mrfmerge ! regionwrite location=objects.jsonl ! fakesink
@@ -23,7 +26,9 @@
  */
 #include "core/object_delay.hpp"
 #include "core/objects.hpp"
+#include "core/result_packer.hpp"
 #include "gst/elements.hpp"
+#include "gst/support/frame_hold.hpp"
 #include "gst/support/object_messages.hpp"
 #include "gst/support/roi_metas.hpp"
 #include "gst/support/stage_filter.hpp"
@@ -103,6 +108,7 @@ class MrfMerge final : public ChainedFilter<Settings, ObjectStage, Motion> {
       sendHeld();
       dropHeld();
     }
+    if (what == Reset::Stream) packer_.drop();
     ChainedFilter::reset(what);
     if (what != Reset::Gap) messages_.endAll();
   }
@@ -111,11 +117,12 @@ class MrfMerge final : public ChainedFilter<Settings, ObjectStage, Motion> {
   GstClockTime latency() override { return latency_; }
   void hold(GstBuffer* buffer) override { held_.back().reset(buffer); }
   GstBuffer* release(bool isEnd) override {
-    const bool isFull = delay_.count() > mostHeld();
+    const bool isFull = delay_.count() > mostHeld() || heldBytes_ > kMostHeldBytes;
     auto objects = delay_.pop(static_cast<int64_t>(latency()));
     if (!objects && isFull) tellFull();
     if (!objects && (isEnd || isFull)) objects = delay_.popAny();
     if (!objects) return nullptr;
+    heldBytes_ -= bytesOf(*objects);
     HeldBuffer buffer = std::move(held_.front());
     held_.pop_front();
     if (buffer) publish(buffer.get(), std::move(objects));
@@ -124,6 +131,7 @@ class MrfMerge final : public ChainedFilter<Settings, ObjectStage, Motion> {
   void dropHeld() override {
     delay_.clear();
     held_.clear();
+    heldBytes_ = 0;
   }
 
  private:
@@ -142,21 +150,42 @@ class MrfMerge final : public ChainedFilter<Settings, ObjectStage, Motion> {
       postWarning(
           "So many small regions touch a large one that groups are not searched to the end; a "
           "larger min-area or similarity of hsvsegment, or a smaller max-regions, makes fewer.");
+    objects = pack(frame.buffer, objects);
     if (latency() > 0)
       delay(std::move(objects), frame.time.ns);
     else
       publish(frame.buffer, std::move(objects));
   }
 
+  /// The frame's results in the form in which they wait for their readers.
+  std::shared_ptr<const Objects> pack(GstBuffer* buffer,
+                                      const std::shared_ptr<const Objects>& objects) {
+    packer_.endFrame();  // Of the frame before, which may have ended early.
+    packMeta<Foreground>(buffer);
+    packMeta<Labels>(buffer);
+    packMeta<Graph>(buffer);
+    packMeta<Motion>(buffer);
+    auto packed = packer_.pack(objects);
+    packer_.endFrame();
+    return packed;
+  }
+  template <class Payload>
+  void packMeta(GstBuffer* buffer) {
+    if (const auto result = findResult<Payload>(buffer))
+      attachResult<Payload>(buffer, packer_.pack(result));
+  }
+
   /// Makes the place for hold() too: each result has one, whatever fails.
   void delay(std::shared_ptr<const Objects> objects, int64_t timeNs) {
     held_.emplace_back();
+    const guint64 bytes = bytesOf(*objects);
     try {
       delay_.push(std::move(objects), timeNs);
     } catch (...) {
       held_.pop_back();
       throw;
     }
+    heldBytes_ += bytes;
     standing_ = delay_.count() > 1 && timeNs == lastNs_ ? standing_ + 1 : 0;
     lastNs_ = timeNs;
     if (standing_ == kManyStanding)
@@ -165,10 +194,16 @@ class MrfMerge final : public ChainedFilter<Settings, ObjectStage, Motion> {
           "Put an element in front that sets them.");
   }
 
+  /// The same from its coming to its going. However many regions there are, none takes more.
+  [[nodiscard]] guint64 bytesOf(const Objects& objects) const {
+    return bytesOfFrame(info_) + kResultBytesPerRegion * objects.regionGroup.size();
+  }
+
   void tellFull() {
     warnOnce("Frames leave before the latency has passed, since no more than " +
-             std::to_string(mostHeld()) +
-             " of this size are held: lower latency, the framerate or the frames' size.");
+             std::to_string(held_.size()) +
+             " of this size are held: lower latency, the framerate, the frames' size or their "
+             "regions.");
   }
 
   void publish(GstBuffer* buffer, std::shared_ptr<const Objects> objects) {
@@ -178,11 +213,13 @@ class MrfMerge final : public ChainedFilter<Settings, ObjectStage, Motion> {
   }
 
   ObjectMessages messages_;
+  ResultPacker packer_;
   bool hasToldCut_ = false;  ///< Since the element started.
   GstVideoInfo info_{};      ///< Of the frames that are held.
   std::atomic<GstClockTime> latency_ = 0;
   ObjectDelay delay_;
   std::deque<HeldBuffer> held_;  ///< Each belongs to a result in `delay_`.
+  guint64 heldBytes_ = 0;        ///< Of both.
   int64_t lastNs_ = 0;           ///< Of the frame before.
   int standing_ = 0;             ///< Frames in a row whose time is that of the one before.
 };

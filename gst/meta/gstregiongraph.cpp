@@ -69,25 +69,39 @@ GstRegionStatus statusAndSize(const Payload& result, gint* width, gint* height) 
   return publicStatus(result.status);
 }
 
-/// Keeps `owner` alive for as long as the plane is mapped.
+/// What a mapped plane lives on.
+struct Hold {
+  virtual ~Hold() = default;
+};
 template <class Payload, class T>
-gboolean mapPlane(const std::shared_ptr<const Payload>& owner, rg::ImageView<const T> pixels,
+struct HoldOf final : Hold {
+  std::shared_ptr<const Payload> owner;
+  rg::Image<T> unpacked;
+};
+
+/// Keeps the pixels alive for as long as the plane is mapped.
+template <class Payload, class T>
+gboolean mapPlane(const std::shared_ptr<const Payload>& owner, rg::ResultPlane<T> Payload::*member,
                   GstRegionPlane* plane, GError** error) {
-  if (!owner || owner->status == rg::Status::Skipped || pixels.size.isEmpty()) {
+  if (!owner || owner->status == rg::Status::Skipped ||
+      (owner.get()->*member).pixelSize().isEmpty()) {
     g_set_error_literal(error, GST_STREAM_ERROR, GST_STREAM_ERROR_FAILED,
                         "this frame was skipped, there are no pixels to map");
     return FALSE;
   }
-  auto* hold = new (std::nothrow) std::shared_ptr<const void>(owner);
-  if (!hold) {
+  try {
+    auto hold = std::make_unique<HoldOf<Payload, T>>();
+    hold->owner = owner;
+    const rg::ImageView<const T> pixels = (owner.get()->*member).unpacked(hold->unpacked);
+    *plane = {pixels.data,     pixels.width(),
+              pixels.height(), static_cast<gint>(pixels.strideBytes),
+              sizeof(T),       {}};
+    plane->_private[0] = static_cast<Hold*>(hold.release());
+    return TRUE;
+  } catch (const std::bad_alloc&) {
     g_set_error_literal(error, GST_CORE_ERROR, GST_CORE_ERROR_FAILED, "out of memory");
     return FALSE;
   }
-  *plane = {pixels.data,     pixels.width(),
-            pixels.height(), static_cast<gint>(pixels.strideBytes),
-            sizeof(T),       {}};
-  plane->_private[0] = hold;
-  return TRUE;
 }
 
 const rg::Object* objectAt(GstRegionObjectsMeta* meta, guint index) {
@@ -129,8 +143,7 @@ gboolean gst_region_foreground_meta_get_area(GstRegionForegroundMeta* meta, guin
 gboolean gst_region_foreground_meta_map(GstRegionForegroundMeta* meta, GstRegionPlane* plane,
                                         GError** error) {
   g_return_val_if_fail(meta && plane, FALSE);
-  return mapPlane(sharedResultOf<rg::Foreground>(meta), resultOf<rg::Foreground>(meta).mask.view(),
-                  plane, error);
+  return mapPlane(sharedResultOf<rg::Foreground>(meta), &rg::Foreground::mask, plane, error);
 }
 
 GstRegionStatus gst_region_labels_meta_get_status(GstRegionLabelsMeta* meta, gint* width,
@@ -160,8 +173,7 @@ guint gst_region_labels_meta_get_n_regions(GstRegionLabelsMeta* meta) {
 gboolean gst_region_labels_meta_map(GstRegionLabelsMeta* meta, GstRegionPlane* plane,
                                     GError** error) {
   g_return_val_if_fail(meta && plane, FALSE);
-  return mapPlane(sharedResultOf<rg::Labels>(meta), resultOf<rg::Labels>(meta).ids.view(), plane,
-                  error);
+  return mapPlane(sharedResultOf<rg::Labels>(meta), &rg::Labels::ids, plane, error);
 }
 
 GstRegionStatus gst_region_graph_meta_get_status(GstRegionGraphMeta* meta, gint* width,
@@ -299,12 +311,11 @@ void gst_region_objects_meta_get_camera_motion(GstRegionObjectsMeta* meta, gdoub
 gboolean gst_region_objects_meta_map(GstRegionObjectsMeta* meta, GstRegionPlane* plane,
                                      GError** error) {
   g_return_val_if_fail(meta && plane, FALSE);
-  return mapPlane(sharedResultOf<rg::Objects>(meta), resultOf<rg::Objects>(meta).slots.view(),
-                  plane, error);
+  return mapPlane(sharedResultOf<rg::Objects>(meta), &rg::Objects::slots, plane, error);
 }
 
 void gst_region_plane_unmap(GstRegionPlane* plane) {
   g_return_if_fail(plane);
-  delete static_cast<std::shared_ptr<const void>*>(plane->_private[0]);
+  delete static_cast<Hold*>(plane->_private[0]);
   *plane = {};
 }

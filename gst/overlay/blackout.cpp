@@ -6,6 +6,7 @@
 #include "gst/support/foreign_enum.hpp"
 
 #include <algorithm>
+#include <vector>
 
 namespace rg::overlay {
 namespace {
@@ -14,12 +15,13 @@ constexpr uint8_t kNeutralChroma = 128;
 constexpr uint8_t kLimitedBlack = 16;
 
 template <class Value, class IsKept>
-void mark(ImageView<const Value> from, Image<uint8_t>& keep, IsKept isKept) {
-  if (from.size.isEmpty()) return keep.fill(0);
-  const FrameMap map{from.size, keep.size()};
+void mark(const ResultPlane<Value>& plane, Image<uint8_t>& keep, IsKept isKept) {
+  if (plane.pixelSize().isEmpty()) return keep.fill(0);
+  std::vector<Value> scratch;
+  const FrameMap map{plane.pixelSize(), keep.size()};
   const bool isScaled = map.from != map.to;
   for (int y = 0; y < keep.height(); ++y) {
-    const Value* values = from.row(map.sourceY(y));
+    const Value* values = plane.unpackedRow(map.sourceY(y), scratch);
     uint8_t* kept = keep.row(y);
     for (int x = 0; x < keep.width(); ++x)
       kept[x] = isKept(values[isScaled ? map.sourceX(x) : x]) ? 1 : 0;
@@ -61,13 +63,13 @@ void blackenChroma(GstVideoFrame* frame, int component, const Image<uint8_t>& ke
 }  // namespace
 
 void markObjects(const Objects& objects, Image<uint8_t>& keep) {
-  mark(objects.slots.view(), keep, [&](uint16_t slot) {
+  mark(objects.slots, keep, [&](uint16_t slot) {
     return slot > 0 && slot <= objects.objects.size() && isListed(objects.objects[slot - 1u].state);
   });
 }
 
 void markForeground(const Foreground& foreground, Image<uint8_t>& keep) {
-  mark(foreground.mask.view(), keep, [](uint8_t value) { return value == kForegroundPixel; });
+  mark(foreground.mask, keep, [](uint8_t value) { return value == kForegroundPixel; });
 }
 
 void blacken(GstVideoFrame* frame, const Image<uint8_t>& keep) {

@@ -11,6 +11,12 @@ namespace rg {
 inline constexpr guint64 kMostHeldFrames = 600;
 inline constexpr guint64 kMostHeldBytes = guint64{2} << 30;
 
+/// What each region adds to bytesOfFrame(), measured at 65535 regions.
+inline constexpr guint64 kResultBytesPerRegion = 200;
+
+/// A frame with what the stages attach to it, but for its regions.
+[[nodiscard]] guint64 bytesOfFrame(const GstVideoInfo& info);
+
 /// Frames that come in a time, rounded up; 0 where the caps don't tell their rate.
 [[nodiscard]] guint64 framesIn(GstClockTime time, const GstVideoInfo& info);
 

@@ -5,6 +5,7 @@
 #include "gst/meta/result_meta.hpp"
 
 #include <cstring>
+#include <vector>
 
 namespace rg {
 namespace {
@@ -36,12 +37,13 @@ void clearPadding(GstVideoFrame* to) {
 
 /// shade() turns a value of the result into a pixel as it lies in memory.
 template <class Value, class Shade>
-void paint(ImageView<const Value> from, GstVideoFrame* to, Shade shade) {
-  if (from.size.isEmpty()) return paintBlack(to);
-  const FrameMap map{from.size, {GST_VIDEO_FRAME_WIDTH(to), GST_VIDEO_FRAME_HEIGHT(to)}};
+void paint(const ResultPlane<Value>& plane, GstVideoFrame* to, Shade shade) {
+  if (plane.pixelSize().isEmpty()) return paintBlack(to);
+  std::vector<Value> scratch;
+  const FrameMap map{plane.pixelSize(), {GST_VIDEO_FRAME_WIDTH(to), GST_VIDEO_FRAME_HEIGHT(to)}};
   const bool isScaled = map.from != map.to;
   for (int y = 0; y < map.to.height; ++y) {
-    const Value* values = from.row(map.sourceY(y));
+    const Value* values = plane.unpackedRow(map.sourceY(y), scratch);
     uint8_t* pixels = rowOf(to, y);
     for (int x = 0; x < map.to.width; ++x) {
       const auto pixel = shade(values[isScaled ? map.sourceX(x) : x]);
@@ -51,19 +53,19 @@ void paint(ImageView<const Value> from, GstVideoFrame* to, Shade shade) {
 }
 
 void paintForeground(const Foreground& foreground, GstVideoFrame* to) {
-  paint(foreground.mask.view(), to,
+  paint(foreground.mask, to,
         [](uint8_t value) -> uint8_t { return value == kForegroundPixel ? kWhite : 0; });
 }
 
 void paintLabels(const Labels& labels, GstVideoFrame* to) {
   if (GST_VIDEO_FRAME_FORMAT(to) == GST_VIDEO_FORMAT_GRAY16_BE)
-    paint(labels.ids.view(), to, [](uint16_t label) { return GUINT16_TO_BE(label); });
+    paint(labels.ids, to, [](uint16_t label) { return GUINT16_TO_BE(label); });
   else
-    paint(labels.ids.view(), to, [](uint16_t label) { return GUINT16_TO_LE(label); });
+    paint(labels.ids, to, [](uint16_t label) { return GUINT16_TO_LE(label); });
 }
 
 void paintObjects(const Objects& objects, GstVideoFrame* to) {
-  paint(objects.slots.view(), to, [&](uint16_t slot) -> uint8_t {
+  paint(objects.slots, to, [&](uint16_t slot) -> uint8_t {
     if (slot == 0 || slot > objects.objects.size()) return 0;
     const ObjectState state = objects.objects[slot - 1].state;
     return state == ObjectState::Tracked || state == ObjectState::Stopped ? kWhite : 0;
@@ -85,8 +87,8 @@ bool paintHue(GstBuffer* from, GstVideoFrame* to) {
   bool isDecided = true;
   const bool wasThere =
       paintResult<Labels>(from, to, [&](const Labels& labels, GstVideoFrame* out) {
-        isDecided = !labels.hue.size().isEmpty();
-        paint(labels.hue.view(), out, [](uint8_t value) { return value; });
+        isDecided = !labels.hue.pixelSize().isEmpty();
+        paint(labels.hue, out, [](uint8_t value) { return value; });
       });
   return wasThere && isDecided;
 }

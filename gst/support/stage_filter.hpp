@@ -6,6 +6,7 @@
 #include "core/executor.hpp"
 #include "core/picture.hpp"
 #include "core/pool.hpp"
+#include "core/result_packer.hpp"
 #include "core/stage.hpp"
 #include "gst/meta/result_meta.hpp"
 #include "gst/support/filter.hpp"
@@ -42,12 +43,24 @@ class StageFilter : public Filter {
     return {std::make_shared<const Executor>(threads), nullptr};
   }
 
-  /// The result that `producer` attaches. Missing on the first frame it is an error that names the
-  /// element to add; going missing later gives one warning.
+  /// The result that `producer` attaches. Missing on
+  /// the first frame it is an error that names the element to add; going missing later gives one
+  /// warning.
   template <class Payload>
   Upstream<Payload> require(const FilterFrame& frame, const char* producer) {
     Upstream<Payload> upstream{findResult<Payload>(frame.buffer)};
     if (!upstream.result) upstream.flow = reportMissing(frame, producer);
+    return upstream;
+  }
+
+  /// The same for a stage, which can't work on what mrfmerge has packed for readers.
+  template <class Payload>
+  Upstream<Payload> requireUnpacked(const FilterFrame& frame, const char* producer) {
+    auto upstream = require<Payload>(frame, producer);
+    if (upstream.result && isPacked(*upstream.result)) {
+      upstream.result = nullptr;
+      upstream.flow = reportMissing(frame, producer);
+    }
     return upstream;
   }
 
@@ -141,7 +154,7 @@ class ChainedFilter : public StageOwner<Settings, Stage> {
       : Base(element, makeStage), producer_(producer) {}
 
   GstFlowReturn process(const FilterFrame& frame) final {
-    auto upstream = this->template require<In>(frame, producer_);
+    auto upstream = this->template requireUnpacked<In>(frame, producer_);
     if (upstream.flow != GST_FLOW_OK) return upstream.flow;
     handle(frame, std::move(upstream.result), this->currentSettings());
     return GST_FLOW_OK;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Each stage by itself: after an exception it goes on as after reset(Reset::Stream).
 #include "core/objects.hpp"
-#include "tests/alloc/digest.hpp"
+#include "tests/support/digest.hpp"
 #include "tests/alloc/places.hpp"
 #include "tests/core/scenes.hpp"
 

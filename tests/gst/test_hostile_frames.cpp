@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Buffers whose memory is not what their caps or metas promise.
 #include "gst/meta/result_meta.hpp"
+#include "tests/support/digest.hpp"
 #include "tests/support/harness.hpp"
 
 #include <gtest/gtest.h>
@@ -156,10 +157,8 @@ TEST(HostileFrame, PaddedRowsGiveWhatPackedRowsGive) {
     const auto maskA = findResult<Foreground>(a.get()), maskB = findResult<Foreground>(b.get());
     const auto idsA = findResult<Labels>(a.get()), idsB = findResult<Labels>(b.get());
     ASSERT_EQ(idsA->count, idsB->count);
-    for (int y = 0; y < 40; ++y) {
-      EXPECT_EQ(std::memcmp(maskA->mask.row(y), maskB->mask.row(y), 50), 0);
-      EXPECT_EQ(std::memcmp(idsA->ids.row(y), idsB->ids.row(y), 100), 0);
-    }
+    EXPECT_EQ(testing::digestOf(*maskA), testing::digestOf(*maskB));
+    EXPECT_EQ(testing::digestOf(*idsA), testing::digestOf(*idsB));
   }
 }
 

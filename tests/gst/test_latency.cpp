@@ -108,8 +108,8 @@ TEST(Latency, AsksPoolsForWhatIsHeldButNeverForMoreThanTheBound) {
        {std::pair{Caps{"GRAY8", 160, 120, "25/1"}, 250u},
         {Caps{"GRAY8", 160, 120, "0/1"}, 0u},
         {Caps{"GRAY8", 160, 120, "90000/1"}, 600u},
-        {Caps{"I420", 1920, 1080, "90000/1"}, 98u},  // 2 GiB, 10.5 bytes a pixel.
-        {Caps{"I420", 7680, 4320, "2147483647/1"}, 6u}}) {
+        {Caps{"I420", 1920, 1080, "90000/1"}, 295u},  // 2 GiB, 3.5 bytes a pixel.
+        {Caps{"I420", 7680, 4320, "2147483647/1"}, 18u}}) {
     Chain chain(kStages + "latency=10", caps);
     EXPECT_EQ(poolOf(chain).first, 2 + held) << caps.text();
   }

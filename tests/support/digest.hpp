@@ -22,7 +22,9 @@ class Digest {
     add({reinterpret_cast<const char*>(&number), sizeof number});
   }
   template <class Pixel>
-  void add(ImageView<const Pixel> plane) {
+  void add(const ResultPlane<Pixel>& pixels) {
+    Image<Pixel> scratch;
+    const ImageView<const Pixel> plane = pixels.unpacked(scratch);
     for (int y = 0; y < plane.height(); ++y)
       for (int x = 0; x < plane.width(); ++x) add(plane.at(x, y));
   }
@@ -35,7 +37,7 @@ class Digest {
 inline uint64_t digestOf(const Foreground& result) {
   Digest digest;
   digest.add(result.status);
-  digest.add(result.mask.view());
+  digest.add(result.mask);
   digest.add(result.scene.event);
   digest.add(result.scene.foregroundPx);
   for (const Box& area : result.areas)
@@ -48,7 +50,7 @@ inline uint64_t digestOf(const Labels& result) {
   digest.add(result.status);
   digest.add(result.scope);
   digest.add(result.count);
-  digest.add(result.ids.view());
+  digest.add(result.ids);
   return digest.value();
 }
 
@@ -86,7 +88,7 @@ inline uint64_t digestOf(const Objects& result) {
   text::appendGraph(text, result, stamp);
   Digest digest;
   digest.add(text);
-  digest.add(result.slots.view());
+  digest.add(result.slots);
   for (const uint64_t id : result.regionObject) digest.add(id);
   return digest.value();
 }
