@@ -16,6 +16,11 @@ constexpr int kMutualRounds =
     24;  // Random weights need under 20; a chain of rising ones any number.
 constexpr int kMaxRounds = 64;
 constexpr size_t kManyShare = 16;  // Of all groups.
+// Links that mutual rounds look at, at most: a node that many touch changes in each of the rounds,
+// and all of those with it. Footage looks at each of its links ten times; where a frame of 640x480
+// holds as many regions as can be made of it, that are 300 000 visits.
+constexpr uint64_t kFewVisits = uint64_t{1} << 20;
+constexpr uint64_t kVisitsPerLink = 3;
 
 /// A group is called by its smallest node here, where groupOf has its name. Its neighbours lie
 /// where those of its nodes lay, in a chain of their places; they get fewer only, so there is
@@ -26,18 +31,28 @@ class Contraction {
 
   void run() {
     begin();
+    bool isHooking = false;
     for (int round = 0; round < kMaxRounds && !s_.changed.empty(); ++round) {
-      if (round == kMutualRounds) listGroups();
+      if (!isHooking && (isLong() || round == kMutualRounds)) {
+        isHooking = true;
+        s_.isCutShort |= round < kMutualRounds;
+        listGroups();
+      }
       for (const uint32_t group : s_.changed) tidy(group);
       for (const uint32_t group : s_.changed) chooseBest(group);
-      joinChoices(round >= kMutualRounds);
+      joinChoices(isHooking);
     }
+    s_.contractionVisits += visits_;
     for (uint32_t i = 0; i < groupOf_.size(); ++i) groupOf_[i] = groupOf_[rootOf(s_.parent, i)];
   }
 
  private:
   using Link = WeightedArc;
   using TieKey = std::tuple<uint32_t, uint32_t, uint32_t>;
+
+  [[nodiscard]] bool isLong() const {
+    return visits_ > kFewVisits + kVisitsPerLink * s_.neighbours.size();
+  }
 
   /// Every node alone, then joined as `groupOf` says.
   void begin() {
@@ -76,8 +91,10 @@ class Contraction {
 
   template <class Visit>
   void forLinks(uint32_t group, const Visit& visit) {
-    for (uint32_t place = group; place != kNone; place = s_.nextPlace[place])
+    for (uint32_t place = group; place != kNone; place = s_.nextPlace[place]) {
+      visits_ += s_.linkCount[place];
       for (uint32_t i = 0; i < s_.linkCount[place]; ++i) visit(s_.links[s_.firstArc[place] + i]);
+    }
   }
 
   /// Two different groups, each called by its smallest node.
@@ -95,6 +112,7 @@ class Contraction {
     uint32_t place = group, count = 0;
     for (uint32_t from = group; from != kNone; from = s_.nextPlace[from]) {
       const uint32_t links = s_.linkCount[from];
+      visits_ += links;
       for (uint32_t i = 0; i < links; ++i) {
         const Link link = s_.links[s_.firstArc[from] + i];
         const uint32_t other = rootOf(s_.parent, link.b);
@@ -190,6 +208,7 @@ class Contraction {
 
   MergeScratch& s_;
   std::vector<uint32_t>& groupOf_;
+  uint64_t visits_ = 0;  ///< Of links.
 };
 
 }  // namespace

@@ -15,7 +15,9 @@ namespace rg {
 
 /// Joins groups of `groupOf`, whose numbers are below its size. A joined group keeps the smallest
 /// of its numbers. Needs scratch.firstArc and scratch.neighbours.
-/// Time: O(E) a round; rounds get shorter with the groups that are left.
+/// Time: O(E) a round; rounds get shorter with the groups that are left. Where they don't (a node
+/// that most others touch gains one of them a round), mutual choice ends after a few times the arcs
+/// with scratch.isCutShort set: from then on each group joins the one it likes best.
 void contract(MergeScratch& scratch, std::vector<uint32_t>& groupOf);
 
 }  // namespace rg

@@ -177,6 +177,7 @@ void minimise(uint32_t nodeCount, std::span<const WeightedArc> arcs, MergeScratc
   listNeighbours(nodeCount, arcs, scratch);
   const uint64_t visitsOfStart = mostVisits(nodeCount, arcs.size()) / 2;
   scratch.visits = 0;
+  scratch.contractionVisits = 0;
   scratch.isCutShort = false;
   const bool hasStart =
       groupOf.size() == nodeCount && splitAndNumber(arcs, scratch, groupOf) < nodeCount;

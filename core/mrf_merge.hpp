@@ -64,6 +64,7 @@ struct MergeScratch {
   std::vector<uint32_t> linkAt, seen;          ///< Of a neighbour, at a time.
   std::vector<uint32_t> changed, joined;
   uint32_t time = 0;
+  uint64_t contractionVisits = 0;  ///< Of links.
 
   // The local search.
   std::vector<int64_t> pull;       ///< Of a node towards each group.
@@ -77,7 +78,8 @@ struct MergeScratch {
   std::vector<uint32_t> noted;
   uint64_t visits = 0;               ///< Of arcs, by the chains.
   uint64_t visitLimit = UINT64_MAX;  ///< No chain begins beyond it.
-  bool isCutShort = false;           ///< Chains were left out for that.
+  bool isCutShort = false;           ///< Chains were left out for that, or the contraction was
+                                     ///< hurried (core/merge_contraction.hpp).
 
   [[nodiscard]] std::span<const WeightedArc> arcsOf(uint32_t node) const {
     return {neighbours.data() + firstArc[node], neighbours.data() + firstArc[node + 1]};
@@ -129,7 +131,7 @@ void listArcs(const Graph& graph, std::span<const ArcEnergy> energies,
 /// Arcs that the chains of one call of minimise() look at, at most, but for the last chain of each
 /// start. Frames of a thousand regions take a tenth to a half of it.
 [[nodiscard]] constexpr uint64_t mostVisits(uint64_t nodes, uint64_t arcs) {
-  return (uint64_t{1} << 21) + 64 * (nodes + arcs);
+  return (uint64_t{1} << 22) + 16 * (nodes + arcs);
 }
 
 /// Sum of the weights of the arcs inside groups: what minimising U maximises.
@@ -140,9 +142,10 @@ void listArcs(const Graph& graph, std::span<const ArcEnergy> energies,
 /// search make it. If `groupOf` comes with an entry per node, that partition is a second start and
 /// the better end is taken. Every group of the result is connected by arcs.
 /// Time: O(E) for each round of the contraction and each sweep of the search; both are limited, and
-/// so are the arcs that chains look at (mostVisits). Something like a wall that tens of thousands
-/// of specks touch would take their square. Where the limit is reached, the other nodes are moved
-/// one by one only, and scratch.isCutShort is set.
+/// so are the arcs that chains look at (mostVisits) and those that mutual choice takes. Something
+/// like a wall that tens of thousands of specks touch would take their square. Where a limit is
+/// reached, the other nodes are moved one by one only, groups join whom they like best unasked, and
+/// scratch.isCutShort is set.
 void minimise(uint32_t nodeCount, std::span<const WeightedArc> arcs, MergeScratch& scratch,
               std::vector<uint32_t>& groupOf);
 

@@ -72,13 +72,15 @@ std::vector<WeightedArc> gridArcs(uint32_t side, uint32_t seed) {
 
 /// Neighbours of each node as contract() takes them.
 MergeScratch scratchOf(uint32_t nodeCount, const std::vector<WeightedArc>& arcs) {
+  std::vector<std::vector<WeightedArc>> arcsOf(nodeCount);
+  for (const WeightedArc& arc : arcs) {
+    arcsOf[arc.a].push_back(arc);
+    arcsOf[arc.b].push_back({arc.b, arc.a, arc.weight});
+  }
   MergeScratch scratch;
   scratch.firstArc.assign(1, 0);
-  for (uint32_t node = 0; node < nodeCount; ++node) {
-    for (const WeightedArc& arc : arcs) {
-      if (arc.a == node) scratch.neighbours.push_back(arc);
-      if (arc.b == node) scratch.neighbours.push_back({arc.b, arc.a, arc.weight});
-    }
+  for (const std::vector<WeightedArc>& list : arcsOf) {
+    scratch.neighbours.insert(scratch.neighbours.end(), list.begin(), list.end());
     scratch.firstArc.push_back(static_cast<uint32_t>(scratch.neighbours.size()));
   }
   return scratch;
@@ -97,6 +99,43 @@ TEST(MergeContraction, IsThatOfAllArcsInEveryRound) {
       contract(scratch, groupOf);
       EXPECT_EQ(groupOf, plainContraction(arcs, start)) << "seed " << seed;
     }
+  }
+}
+
+/// A chain, all nodes of which touch a few others, too. Those like one of them best after the
+/// other, and all see it when one has joined.
+std::vector<WeightedArc> chainBelowWalls(uint32_t nodes, uint32_t walls) {
+  std::vector<WeightedArc> arcs;
+  for (uint32_t i = 0; i + 1 < nodes; ++i) arcs.push_back({i, i + 1, 1 + i % 5});
+  for (uint32_t i = 0; i < nodes; ++i)
+    for (uint32_t wall = 0; wall < walls; ++wall)
+      arcs.push_back({i, nodes + wall, 10 + mixHash(i, wall, 3) % 5});
+  return arcs;
+}
+
+TEST(MergeContraction, WorkFollowsTheLinksWhereSomeNodesTouchAll) {
+  for (const uint32_t walls : {1u, 4u, 64u}) {
+    const uint32_t nodes = 600'000 / (walls + 1);
+    const std::vector<WeightedArc> arcs = chainBelowWalls(nodes, walls);
+    MergeScratch scratch = scratchOf(nodes + walls, arcs);
+    std::vector<uint32_t> groupOf(nodes + walls);
+    std::iota(groupOf.begin(), groupOf.end(), 0u);
+    contract(scratch, groupOf);
+    EXPECT_TRUE(scratch.isCutShort);
+    EXPECT_LE(scratch.contractionVisits, 40 * arcs.size()) << walls;
+    EXPECT_EQ(std::count(groupOf.begin(), groupOf.end(), 0u), nodes + walls) << walls;
+  }
+}
+
+TEST(MergeContraction, OrdinaryGraphsAreContractedToTheEnd) {
+  constexpr uint32_t kSide = 100;
+  for (uint32_t seed = 0; seed < 3; ++seed) {
+    const std::vector<WeightedArc> arcs = gridArcs(kSide, seed);
+    MergeScratch scratch = scratchOf(kSide * kSide, arcs);
+    std::vector<uint32_t> groupOf(kSide * kSide);
+    std::iota(groupOf.begin(), groupOf.end(), 0u);
+    contract(scratch, groupOf);
+    EXPECT_FALSE(scratch.isCutShort) << "seed " << seed;
   }
 }
 
