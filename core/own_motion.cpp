@@ -19,6 +19,9 @@ constexpr int64_t kNoiseUnit = 16;
 // In deviations of what noise gains: the best of thousands of shifts, and one that others suggest.
 constexpr int64_t kSearchGain = 4;
 constexpr int64_t kNoiseGain = 1;
+// Pixels that a round compares, but for a row of each region: more than move in frames of 1080
+// lines. Beyond it, rows are like those beside them.
+constexpr uint64_t kMostCompared = uint64_t{1} << 19;
 
 using Sums = OwnMotionScratch::Sums;
 using Trial = OwnMotionScratch::Trial;
@@ -137,7 +140,7 @@ Sums withoutBest(const std::array<Sums, kBands>& bands) {
 }
 
 /// Compares a region, where it can be compared with and without the shift.
-Sums compare(const Inputs& in, size_t region, const OwnMotionScratch& s) {
+void compare(const Inputs& in, size_t region, OwnMotionScratch& s) {
   const Graph& graph = *in.motion.graph;
   const ImageView<const uint8_t> luma = graph.labels->picture->luma();
   const Range columns = visibleRange(graph.size.width, in.rules.camera.dx);
@@ -149,6 +152,7 @@ Sums compare(const Inputs& in, size_t region, const OwnMotionScratch& s) {
   std::array<Sums, kBands> bands{};
   for (const RegionRun& run : graph.runs.of(region)) {
     const int y = run.y, from = y - shift.y;
+    if ((y - box.y) % s.everyRow != 0) continue;
     if (y < rows.first || y >= rows.last || from < rows.first || from >= rows.last) continue;
     const Range seen{std::max({int{run.begin}, columns.first, columns.first + shift.x}),
                      std::min({int{run.end}, columns.last, columns.last + shift.x})};
@@ -162,23 +166,45 @@ Sums compare(const Inputs& in, size_t region, const OwnMotionScratch& s) {
       sum.moved += sums.moved;
       sum.pixels += static_cast<uint64_t>(last - first);
     };
-    forVisible(s.hidden.row(y), seen, isHiding, [&](int first, int last) {
+    const auto addSpan = [&](int first, int last) {
       if (isAcross) return addTo(kBands * (y - box.y) / box.height, first, last);
       for (int band = 0; band < kBands; ++band)
         addTo(band, std::max(first, box.x + band * box.width / kBands),
               std::min(last, box.x + (band + 1) * box.width / kBands));
-    });
+    };
+    if (s.hidesAny)
+      forVisible(s.hidden.row(y), seen, isHiding, addSpan);
+    else
+      addSpan(seen.first, seen.last);
   }
-  return withoutBest(bands);
+  Trial& trial = s.trials[region];
+  trial.seen = 0;
+  for (const Sums& band : bands) trial.seen += band.pixels;
+  trial.sums = withoutBest(bands);
+}
+
+/// So many rows are left out that the others hold no more than kMostCompared pixels.
+void limitWork(const Graph& graph, OwnMotionScratch& s) {
+  uint64_t area = 0;
+  for (size_t i = 0; i < s.trials.size(); ++i)
+    if (s.trials[i].shift != Point{}) area += graph.regions[i].areaPx;
+  s.everyRow = static_cast<int>(std::max(uint64_t{1}, (area + kMostCompared - 1) / kMostCompared));
 }
 
 /// Measures each region that has a shift to try, on pixels that can be compared with and without.
 void measure(const Inputs& in, const std::vector<OwnMotion>& own, OwnMotionScratch& s) {
-  forCovered(in, own, s, simd::raiseRow);
+  limitWork(*in.motion.graph, s);
+  s.hidesAny =
+      std::any_of(s.moves.begin(), s.moves.end(), [](uint8_t moves) { return moves != 0; });
+  if (s.hidesAny) forCovered(in, own, s, simd::raiseRow);
   in.executor.forEach(static_cast<int>(s.trials.size()), [&](int i) {
     const auto region = static_cast<size_t>(i);
-    if (s.trials[region].shift != Point{}) s.trials[region].sums = compare(in, region, s);
+    if (s.trials[region].shift != Point{}) compare(in, region, s);
   });
+  uint64_t pixels = 0;
+  for (const Trial& trial : s.trials) pixels += trial.seen;
+  s.mostPixels = std::max(s.mostPixels, pixels);
+  if (!s.hidesAny) return;
   forCovered(in, own, s,
              [](uint16_t* hidden, int count, uint16_t) { std::fill_n(hidden, count, kNoRegion); });
 }
@@ -199,6 +225,12 @@ int64_t gainOf(const Sums& sums, int64_t deviations, uint64_t noise) {
   const int64_t gain = static_cast<int64_t>(sums.still - sums.moved) - pixels / kLeastGainShare;
   return kGainUnit * kNoiseUnit * gain / static_cast<int64_t>(noise) -
          kGainUnit * deviations * integerSqrt(sums.pixels);
+}
+
+/// The same for all of a region's rows, where those that were compared stand for them.
+int64_t gainOfAll(const Trial& trial, int height, int64_t deviations, const OwnMotionScratch& s) {
+  const int64_t compared = (height + s.everyRow - 1) / s.everyRow;
+  return gainOf(trial.sums, deviations, s.noise) * height / compared;
 }
 
 /// What holds each region to what moves, and which of those has the longest border with it.
@@ -238,7 +270,8 @@ void judge(const Inputs& in, int64_t deviations, OwnMotionScratch& s, std::vecto
   for (size_t i = 0; i < own.size(); ++i) {
     const OwnMotionScratch::Trial& trial = s.trials[i];
     if (trial.shift == Point{}) continue;
-    own[i] = {trial.shift, gainOf(trial.sums, deviations, s.noise)};
+    const int height = in.motion.graph->regions[i].box.height;
+    own[i] = {trial.shift, gainOfAll(trial, height, deviations, s)};
     s.moves[i] = isMover(in, i, own[i], s);
   }
 }
@@ -266,6 +299,7 @@ void findOwnMotion(const Motion& motion, ImageView<const uint8_t> previous,
   own.assign(count, {});
   s.moves.assign(count, 0);
   s.trials.assign(count, {});
+  s.mostPixels = 0;
   for (size_t i = 0; i < count; ++i) s.trials[i].shift = ownShift(in, i);
   if (std::all_of(s.trials.begin(), s.trials.end(),
                   [](const OwnMotionScratch::Trial& t) { return t.shift == Point{}; }))

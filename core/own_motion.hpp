@@ -49,8 +49,9 @@ struct OwnMotionScratch {
     uint64_t pixels = 0;  ///< over so many pixels.
   };
   struct Trial {
-    Point shift;  ///< {} = none.
-    Sums sums;    ///< Of the bands that are not left out.
+    Point shift;        ///< {} = none.
+    Sums sums;          ///< Of the bands that are not left out.
+    uint64_t seen = 0;  ///< Pixels of all bands.
   };
   Image<uint8_t> expected;     ///< The previous frame as the camera's motion moves it.
   Image<uint16_t> hidden;      ///< Its pixels that a mover covered: the label of that, else 0;
@@ -64,6 +65,9 @@ struct OwnMotionScratch {
   };
   std::vector<Surroundings> around;  ///< Of each region.
   uint64_t noise = 0;                ///< Mean difference of a pixel, in 1/16 grey level.
+  int everyRow = 1;                  ///< Of a region's rows one in so many is compared.
+  bool hidesAny = false;             ///< Something moves, so that `hidden` is not all 0.
+  uint64_t mostPixels = 0;           ///< That a round of the last call compared.
 };
 
 struct OwnMotionRules {
@@ -77,7 +81,9 @@ struct OwnMotionRules {
 };
 
 /// previous: the luma that `motion` was measured against. Cost: follows the pixels of the movers
-/// and of their neighbours; where no vector differs from the camera's, nothing is compared.
+/// and of their neighbours; where no vector differs from the camera's, nothing is compared. Where
+/// those are more than half a million pixels (a large frame that moves in parts, or of which the
+/// camera's motion was not found), some rows of each region stand for all.
 void findOwnMotion(const Motion& motion, ImageView<const uint8_t> previous,
                    const OwnMotionRules& rules, const Executor& executor, OwnMotionScratch& scratch,
                    std::vector<OwnMotion>& own);

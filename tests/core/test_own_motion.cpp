@@ -148,6 +148,34 @@ TEST(OwnMotion, GroundDoesNotGoWithAnEndOfItThatMoves) {
   EXPECT_THAT(moversOf(*at(0), labels, {kCamera, {9, 1}, {9, 1}}), ElementsAre(0, 0, 1));
 }
 
+TEST(OwnMotion, WorkIsBoundedWhereAllOfALargeFrameMoves) {
+  constexpr Size kLarge{2048, 1024};
+  constexpr int kSide = 64, kAcross = kLarge.width / kSide, kTiles = kAcross * 16;
+  const auto tileAt = [](int x, int y) { return y / kSide * kAcross + x / kSide; };
+  const auto stepOf = [](int tile) { return Point{3 + tile % 5, tile % 3 - 1}; };
+  const auto at = [&](int time) {
+    return scenes::paintGrey(kLarge, [&](int x, int y) {
+      const int tile = tileAt(x, y);
+      const Point step = stepOf(tile);
+      return texture(x - time * step.x + 50, y - time * step.y + 50,
+                     100 + static_cast<uint32_t>(tile));
+    });
+  };
+  const auto labels = scenes::label(at(1), kTiles, [&](int x, int y) { return tileAt(x, y) + 1; });
+  std::vector<Point> vectors;
+  for (int tile = 0; tile < kTiles; ++tile) vectors.push_back(stepOf(tile));
+  const Motion motion = motionOf(labels, vectors);
+  const std::vector<ArcEnergy> arcs = energiesOf(motion);
+  const auto previous = at(0);
+  OwnMotionScratch scratch;
+  std::vector<OwnMotion> own;
+  findOwnMotion(motion, previous->luma(), {{0, 0, 0, 256}, arcs, {}, {}, {}}, Executor(1), scratch,
+                own);
+  EXPECT_GT(scratch.mostPixels, 200'000u);
+  EXPECT_LT(scratch.mostPixels, 600'000u);
+  EXPECT_EQ(std::count(scratch.moves.begin(), scratch.moves.end(), 1), kTiles);
+}
+
 /// The same pixel by pixel, over whole frames.
 class Plainly {
  public:
