@@ -2,18 +2,16 @@
 #include "core/own_motion.hpp"
 
 #include "core/pixel.hpp"
+#include "core/region_comparison.hpp"
 #include "core/simd/motion_rows.hpp"
 
 #include <algorithm>
-#include <cstdlib>
 
 namespace rg {
 namespace {
 
 constexpr int kOwnRounds = 2;  // The first movers show which ground was hidden.
 constexpr int kNeighbourRounds = 2;
-constexpr int kBands = OwnMotionScratch::kBands;
-constexpr size_t kLeftOut = 2;
 constexpr int64_t kLeastGainShare = 4;  // A mover gains a grey level for so many pixels.
 constexpr int64_t kNoiseUnit = 16;
 // In deviations of what noise gains: the best of thousands of shifts, and one that others suggest.
@@ -32,17 +30,6 @@ struct Inputs {
   const Executor& executor;
   const OwnMotionRules& rules;
 };
-
-/// Rows or columns of the frame that the previous frame shows as well.
-struct Range {
-  int first, last;
-};
-
-Range visibleRange(int length, int shift) {
-  const int whole = shift >> kMotionFractionBits;
-  const bool isWhole = shift % kMotionUnit == 0;
-  return {std::clamp(whole + (isWhole ? 0 : 1), 0, length), std::clamp(length + whole, 0, length)};
-}
 
 /// expected(x) = previous(x − shift), between its pixels linearly; at the border it repeats.
 void warp(ImageView<const uint8_t> previous, const RegionMotion& shift, const Executor& executor,
@@ -100,89 +87,6 @@ void forCovered(const Inputs& in, const std::vector<OwnMotion>& own, OwnMotionSc
   });
 }
 
-/// Calls visit(first, last) for the parts of a row's columns that nothing hides from a region.
-template <class Visit, class IsHiding>
-void forVisible(const uint16_t* hidden, Range columns, const IsHiding& isHiding,
-                const Visit& visit) {
-  const int count = columns.last - columns.first;
-  if (count > 0 && !simd::isAnySet(hidden + columns.first, count))
-    return visit(columns.first, columns.last);
-  for (int first = columns.first; first < columns.last;) {
-    int last = first + 1;
-    while (last < columns.last && hidden[last] == hidden[first]) ++last;
-    if (!isHiding(hidden[first])) visit(first, last);
-    first = last;
-  }
-}
-
-/// Adds up the bands of a region but for the neighbours that gain most.
-Sums withoutBest(const std::array<Sums, kBands>& bands) {
-  const auto sumOf = [](auto first, auto last) {
-    Sums sum;
-    for (auto band = first; band != last; ++band) {
-      sum.still += band->still;
-      sum.moved += band->moved;
-      sum.pixels += band->pixels;
-    }
-    return sum;
-  };
-  Sums best;
-  int64_t most = INT64_MIN;
-  for (auto band = bands.begin(); band + kLeftOut <= bands.end(); ++band) {
-    const Sums sum = sumOf(band, band + kLeftOut);
-    const auto gain = static_cast<int64_t>(sum.still - sum.moved);
-    if (gain > most) best = sum;
-    most = std::max(most, gain);
-  }
-  Sums all = sumOf(bands.begin(), bands.end());
-  if (best.pixels == all.pixels) return all;
-  return {all.still - best.still, all.moved - best.moved, all.pixels - best.pixels};
-}
-
-/// Compares a region, where it can be compared with and without the shift.
-void compare(const Inputs& in, size_t region, OwnMotionScratch& s) {
-  const Graph& graph = *in.motion.graph;
-  const ImageView<const uint8_t> luma = graph.labels->picture->luma();
-  const Range columns = visibleRange(graph.size.width, in.rules.camera.dx);
-  const Range rows = visibleRange(graph.size.height, in.rules.camera.dy);
-  const Point shift = s.trials[region].shift;
-  const Box& box = graph.regions[region].box;
-  const bool isAcross = std::abs(shift.x) >= std::abs(shift.y);
-  const auto isHiding = [&](uint16_t by) { return by != kNoRegion && by != region + 1; };
-  std::array<Sums, kBands> bands{};
-  for (const RegionRun& run : graph.runs.of(region)) {
-    const int y = run.y, from = y - shift.y;
-    if ((y - box.y) % s.everyRow != 0) continue;
-    if (y < rows.first || y >= rows.last || from < rows.first || from >= rows.last) continue;
-    const Range seen{std::max({int{run.begin}, columns.first, columns.first + shift.x}),
-                     std::min({int{run.end}, columns.last, columns.last + shift.x})};
-    const uint8_t *now = luma.row(y), *still = s.expected.row(y), *moved = s.expected.row(from);
-    const auto addTo = [&](int band, int first, int last) {
-      if (first >= last) return;
-      const simd::DifferenceSums sums = simd::sumDifferences(
-          {now + first, still + first, moved + (first - shift.x)}, last - first);
-      Sums& sum = bands[static_cast<size_t>(band)];
-      sum.still += sums.still;
-      sum.moved += sums.moved;
-      sum.pixels += static_cast<uint64_t>(last - first);
-    };
-    const auto addSpan = [&](int first, int last) {
-      if (isAcross) return addTo(kBands * (y - box.y) / box.height, first, last);
-      for (int band = 0; band < kBands; ++band)
-        addTo(band, std::max(first, box.x + band * box.width / kBands),
-              std::min(last, box.x + (band + 1) * box.width / kBands));
-    };
-    if (s.hidesAny)
-      forVisible(s.hidden.row(y), seen, isHiding, addSpan);
-    else
-      addSpan(seen.first, seen.last);
-  }
-  Trial& trial = s.trials[region];
-  trial.seen = 0;
-  for (const Sums& band : bands) trial.seen += band.pixels;
-  trial.sums = withoutBest(bands);
-}
-
 /// So many rows are left out that the others hold no more than kMostCompared pixels.
 void limitWork(const Graph& graph, OwnMotionScratch& s) {
   uint64_t area = 0;
@@ -191,19 +95,28 @@ void limitWork(const Graph& graph, OwnMotionScratch& s) {
   s.everyRow = static_cast<int>(std::max(uint64_t{1}, (area + kMostCompared - 1) / kMostCompared));
 }
 
+bool movesAny(const OwnMotionScratch& s) {
+  return std::any_of(s.moves.begin(), s.moves.end(), [](uint8_t moves) { return moves != 0; });
+}
+
+bool triesAny(const OwnMotionScratch& s) {
+  return std::any_of(s.trials.begin(), s.trials.end(),
+                     [](const Trial& trial) { return trial.shift != Point{}; });
+}
+
 /// Measures each region that has a shift to try, on pixels that can be compared with and without.
 void measure(const Inputs& in, const std::vector<OwnMotion>& own, OwnMotionScratch& s) {
   limitWork(*in.motion.graph, s);
-  s.hidesAny =
-      std::any_of(s.moves.begin(), s.moves.end(), [](uint8_t moves) { return moves != 0; });
+  s.hidesAny = movesAny(s);
   if (s.hidesAny) forCovered(in, own, s, simd::raiseRow);
   in.executor.forEach(static_cast<int>(s.trials.size()), [&](int i) {
     const auto region = static_cast<size_t>(i);
-    if (s.trials[region].shift != Point{}) compare(in, region, s);
+    if (s.trials[region].shift != Point{}) compareRegion(in.motion, in.rules.camera, region, s);
   });
   uint64_t pixels = 0;
   for (const Trial& trial : s.trials) pixels += trial.seen;
   s.mostPixels = std::max(s.mostPixels, pixels);
+  ++s.rounds;
   if (!s.hidesAny) return;
   forCovered(in, own, s,
              [](uint16_t* hidden, int count, uint16_t) { std::fill_n(hidden, count, kNoRegion); });
@@ -264,9 +177,9 @@ bool isMover(const Inputs& in, size_t region, const OwnMotion& own, const OwnMot
   return s.around[region].hold > ground.weight();
 }
 
-/// Takes over what was measured, and guesses again which of those regions move.
+/// Takes over what was measured, and guesses again which of those regions move, by what was seen
+/// around them.
 void judge(const Inputs& in, int64_t deviations, OwnMotionScratch& s, std::vector<OwnMotion>& own) {
-  lookAround(*in.motion.graph, in.rules.arcs, s);
   for (size_t i = 0; i < own.size(); ++i) {
     const OwnMotionScratch::Trial& trial = s.trials[i];
     if (trial.shift == Point{}) continue;
@@ -300,10 +213,9 @@ void findOwnMotion(const Motion& motion, ImageView<const uint8_t> previous,
   s.moves.assign(count, 0);
   s.trials.assign(count, {});
   s.mostPixels = 0;
+  s.rounds = 0;
   for (size_t i = 0; i < count; ++i) s.trials[i].shift = ownShift(in, i);
-  if (std::all_of(s.trials.begin(), s.trials.end(),
-                  [](const OwnMotionScratch::Trial& t) { return t.shift == Point{}; }))
-    return;
+  if (!triesAny(s)) return;
   if (s.hidden.size() != motion.size) {
     s.hidden.resize(motion.size);
     s.hidden.fill(kNoRegion);
@@ -312,7 +224,9 @@ void findOwnMotion(const Motion& motion, ImageView<const uint8_t> previous,
   for (int round = 0; round < kOwnRounds; ++round) {
     measure(in, own, s);
     measureNoise(s);
+    lookAround(*motion.graph, rules.arcs, s);
     judge(in, kSearchGain, s, own);
+    if (!movesAny(s)) return;  // Nothing is hidden then, and nobody has neighbours that move.
   }
   for (int round = 0; round < kNeighbourRounds; ++round) {
     lookAround(*motion.graph, rules.arcs, s);
@@ -320,6 +234,7 @@ void findOwnMotion(const Motion& motion, ImageView<const uint8_t> previous,
     for (size_t i = 0; i < count; ++i)
       if (s.moves[i] == 0 && s.around[i].neighbour != 0)
         s.trials[i].shift = own[s.around[i].neighbour - 1].shift;
+    if (!triesAny(s)) return;
     measure(in, own, s);
     judge(in, kNoiseGain, s, own);
   }

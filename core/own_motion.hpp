@@ -68,6 +68,7 @@ struct OwnMotionScratch {
   int everyRow = 1;                  ///< Of a region's rows one in so many is compared.
   bool hidesAny = false;             ///< Something moves, so that `hidden` is not all 0.
   uint64_t mostPixels = 0;           ///< That a round of the last call compared.
+  int rounds = 0;                    ///< In which it compared any.
 };
 
 struct OwnMotionRules {

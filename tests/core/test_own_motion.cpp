@@ -58,21 +58,32 @@ std::vector<ArcEnergy> energiesOf(const Motion& motion) {
 
 constexpr RegionMotion kCameraMotion{kCamera.x * kMotionUnit, kCamera.y* kMotionUnit, 0, 256};
 
-std::vector<uint8_t> moversOf(const Picture& previous, std::shared_ptr<const Labels> labels,
-                              const std::vector<Point>& vectors,
-                              const std::vector<uint32_t>& expected = {},
-                              const std::vector<Point>& steps = {}) {
+struct Found {
+  std::vector<uint8_t> moves;
+  int rounds = 0;
+};
+
+Found searchFor(const Picture& previous, std::shared_ptr<const Labels> labels,
+                const std::vector<Point>& vectors, const std::vector<uint32_t>& expected = {},
+                const std::vector<Point>& steps = {}) {
   const Motion motion = motionOf(std::move(labels), vectors);
   OwnMotionScratch scratch;
   std::vector<OwnMotion> own;
   const std::vector<ArcEnergy> arcs = energiesOf(motion);
   findOwnMotion(motion, previous.luma(), {kCameraMotion, arcs, {}, expected, steps}, Executor(1),
                 scratch, own);
-  return scratch.moves;
+  return {scratch.moves, scratch.rounds};
+}
+
+std::vector<uint8_t> moversOf(const Picture& previous, std::shared_ptr<const Labels> labels,
+                              const std::vector<Point>& vectors,
+                              const std::vector<uint32_t>& expected = {},
+                              const std::vector<Point>& steps = {}) {
+  return searchFor(previous, std::move(labels), vectors, expected, steps).moves;
 }
 
 /// Of the ground on the left, the ground on the right, and the square.
-std::vector<uint8_t> test(const TwoFrames& frames, const std::vector<Point>& vectors) {
+Found search(const TwoFrames& frames, const std::vector<Point>& vectors) {
   const auto at = [&](int time) {
     return scenes::paintGrey(kSize, [&](int x, int y) { return frames.levelAt(x, y, time); });
   };
@@ -81,7 +92,11 @@ std::vector<uint8_t> test(const TwoFrames& frames, const std::vector<Point>& vec
     if (Box{square.x, square.y, 16, 16}.contains({x, y})) return 3;
     return x < square.x ? 1 : 2;
   });
-  return moversOf(*at(0), labels, vectors);
+  return searchFor(*at(0), labels, vectors);
+}
+
+std::vector<uint8_t> test(const TwoFrames& frames, const std::vector<Point>& vectors) {
+  return search(frames, vectors).moves;
 }
 
 TEST(OwnMotion, ThingsThatMoveWithTheGroundAreNoMovers) {
@@ -94,6 +109,12 @@ TEST(OwnMotion, AMoverIsToldFromTheGroundHoweverUnreliableItsVector) {
 
 TEST(OwnMotion, AWrongVectorAloneMakesNoMover) {
   EXPECT_THAT(test(TwoFrames(kCamera), {kCamera, {-8, 4}, {9, 1}}), ElementsAre(0, 0, 0));
+}
+
+TEST(OwnMotion, IsNotAskedAgainWhatCanNotChange) {
+  EXPECT_EQ(search(TwoFrames(kCamera), {kCamera, kCamera, kCamera}).rounds, 0);
+  EXPECT_EQ(search(TwoFrames(kCamera), {kCamera, {-8, 4}, {9, 1}}).rounds, 1);
+  EXPECT_GT(search(TwoFrames({9, 1}), {kCamera, kCamera, {9, 1}}).rounds, 1);
 }
 
 TEST(OwnMotion, GroundThatAMoverHasLeftStaysGround) {
