@@ -12,19 +12,23 @@
 
 #include "core/evidence.hpp"
 #include "core/picture.hpp"
+#include "core/pixel.hpp"
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 namespace rg {
 
+enum PortraitEdge : uint8_t { kLeftEdge = 1, kRightEdge = 2, kTopEdge = 4, kBottomEdge = 8 };
+
 /// A colour and in how many of the last frames it belonged to the thing.
 struct PortraitSample {
   uint8_t red = 0, green = 0, blue = 0;
   uint8_t weight = 0;
-  uint8_t edges =
-      0;  ///< Where it is solid and its neighbour isn't: 1 left, 2 right, 4 top, 8 bottom.
+  uint8_t edges = 0;  ///< Where it is solid and its neighbour isn't, of PortraitEdge.
 };
 
 struct Portrait {
@@ -35,8 +39,44 @@ struct Portrait {
   uint32_t frames = 0;                  ///< From how many it was learnt.
   uint16_t usual = 0;  ///< Share of its samples that agree while all of it is seen, in 1/256.
 
-  /// Samples that belong to the thing more often than not.
-  [[nodiscard]] bool isSolid(const PortraitSample& sample) const;
+  static constexpr uint32_t kMostWeight = 8;
+  /// Of samples that belong to the thing more often than not.
+  [[nodiscard]] uint32_t leastWeight() const {
+    return std::max(1u, (std::min(frames, kMostWeight) + 1) / 2);
+  }
+  [[nodiscard]] bool isSolid(const PortraitSample& sample) const {
+    return sample.weight >= leastWeight();
+  }
+};
+
+inline constexpr int kAlike = 32;  ///< What the differences of three channels stay below.
+
+/// The planes of a picture, found once for many samples.
+class PortraitColours {
+ public:
+  explicit PortraitColours(const Picture& picture)
+      : red_(picture.red().data),
+        green_(picture.green().data),
+        blue_(picture.blue().data),
+        strideBytes_(picture.red().strideBytes) {}
+
+  [[nodiscard]] ptrdiff_t strideBytes() const { return strideBytes_; }
+  [[nodiscard]] ptrdiff_t placeOf(int x, int y) const { return y * strideBytes_ + x; }
+  [[nodiscard]] int difference(const PortraitSample& s, ptrdiff_t place) const {
+    return absDiff(s.red, red_[place]) + absDiff(s.green, green_[place]) +
+           absDiff(s.blue, blue_[place]);
+  }
+  /// Whether a pixel has about the colour of a sample.
+  [[nodiscard]] bool agrees(const PortraitSample& sample, ptrdiff_t place) const {
+    return difference(sample, place) < kAlike;
+  }
+  [[nodiscard]] Colour at(ptrdiff_t place) const {
+    return {red_[place], green_[place], blue_[place]};
+  }
+
+ private:
+  const uint8_t *red_, *green_, *blue_;
+  ptrdiff_t strideBytes_;  ///< Of each of them.
 };
 
 /// What is looked at.
@@ -75,12 +115,26 @@ struct PortraitSearch {
 };
 
 struct PortraitScratch {
+  struct Solid {
+    ptrdiff_t stateAt, pixelAt;  ///< From those of the corner.
+    PortraitSample sample;
+  };
+  struct Samples {
+    std::vector<Solid> list;
+    std::vector<int64_t> most;  ///< Of each block: what it and all after it can gain.
+  };
   std::vector<uint8_t> state;  ///< Of the pixels of the search window.
+  Samples all, some;
+  uint64_t looks = 0;  ///< At samples, by the last search.
 };
 
 /// Mixes in what is at `corner`, where `owner` says `own`. Another size begins anew.
 void learn(Portrait& portrait, const PortraitScene& scene, Point corner, Size sizePx,
            std::span<const uint16_t> owner, uint16_t own);
+
+/// The pixels that the result of a search depends on.
+[[nodiscard]] Box searchedBox(const Portrait& portrait, const Evidence& evidence,
+                              const PortraitSearch& where);
 
 [[nodiscard]] PortraitMatch findPortrait(const Portrait& portrait, const PortraitScene& scene,
                                          const PortraitSearch& where, PortraitScratch& s);
@@ -91,13 +145,11 @@ template <class Visit>
 void forPortraitCells(const Portrait& portrait, const PortraitScene& scene, Point corner,
                       const Visit& visit);
 
-/// Whether a pixel has about the colour of a sample.
-[[nodiscard]] bool agrees(const PortraitSample& sample, const Picture& picture, int x, int y);
-
 template <class Visit>
 void forPortraitCells(const Portrait& p, const PortraitScene& scene, Point corner,
                       const Visit& visit) {
   const Evidence& e = scene.evidence;
+  const PortraitColours colours(scene.picture);
   const int step = e.stepPx;
   const Box cells = intersect({(corner.x + step - 1) / step - 1, (corner.y + step - 1) / step - 1,
                                p.sizePx.width / step + 2, p.sizePx.height / step + 2},
@@ -111,7 +163,8 @@ void forPortraitCells(const Portrait& p, const PortraitScene& scene, Point corne
       if (!boundsOf(p.sizePx).contains(in)) continue;
       const int column = in.x / p.stepPx, row = in.y / p.stepPx;
       const PortraitSample& sample = p.samples[static_cast<size_t>(row * p.grid.width + column)];
-      if (p.isSolid(sample)) visit(cell, agrees(sample, scene.picture, middle.x, middle.y));
+      if (p.isSolid(sample))
+        visit(cell, colours.agrees(sample, colours.placeOf(middle.x, middle.y)));
     }
 }
 

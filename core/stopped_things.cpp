@@ -13,13 +13,19 @@ constexpr int kSkip = 2;    // Of the portrait's columns and rows while the plac
 template <class Visit>
 void forSamples(const Portrait& p, const Picture& picture, Point corner, int skip,
                 const Visit& visit) {
-  const Box frame = boundsOf(picture.size());
-  for (int row = 0; row < p.grid.height; row += skip)
+  const Size frame = picture.size();
+  const PortraitColours colours(picture);
+  const uint32_t least = p.leastWeight();
+  for (int row = 0; row < p.grid.height; row += skip) {
+    const int y = corner.y + row * p.stepPx;
+    if (y < 0 || y >= frame.height) continue;
+    const PortraitSample* samples = p.samples.data() + ptrdiff_t{row} * p.grid.width;
     for (int column = 0; column < p.grid.width; column += skip) {
-      const PortraitSample& sample = p.samples[static_cast<size_t>(row * p.grid.width + column)];
-      const Point at{corner.x + column * p.stepPx, corner.y + row * p.stepPx};
-      if (p.isSolid(sample) && frame.contains(at)) visit(at, agrees(sample, picture, at.x, at.y));
+      const int x = corner.x + column * p.stepPx;
+      if (samples[column].weight < least || x < 0 || x >= frame.width) continue;
+      visit(Point{x, y}, colours.agrees(samples[column], colours.placeOf(x, y)));
     }
+  }
 }
 
 /// Where the thing stands, if as much of it is seen there as usually is.

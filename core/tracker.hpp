@@ -127,6 +127,7 @@ struct Place {
 /// A track that is looked for by its portrait.
 struct PortraitTask {
   size_t track = 0, fit = 0;  ///< Indices.
+  PortraitSearch search;
   PortraitMatch match;
   Point corner;  ///< Where it was found, in pixels.
 };
@@ -222,7 +223,9 @@ class Tracker {
   [[nodiscard]] bool isClear(size_t index, const Evidence& evidence) const;
   void listPortraits(const Evidence& evidence);
   void placeByPortraits(const Evidence& evidence, int64_t stepNs);
-  [[nodiscard]] PortraitMatch findTrack(const PortraitScene& scene, size_t index, int64_t stepNs);
+  [[nodiscard]] PortraitSearch searchOf(size_t index, int64_t stepNs) const;
+  [[nodiscard]] PortraitMatch findTrack(const PortraitScene& scene, const PortraitTask& task);
+  [[nodiscard]] bool isDisturbed(size_t index, const Evidence& evidence) const;
   void hide(const PortraitScene& scene, size_t index, int64_t stepNs);
   void giveMatch(const PortraitScene& scene, PortraitTask& task, int64_t stepNs);
   void learnPortrait(size_t index, const Evidence& evidence);

@@ -75,7 +75,7 @@ void Tracker::listPortraits(const Evidence& e) {
     const size_t i = taskTrack_[t];
     if (!isFaithful(tracks_[i]) || isClear(i, e)) continue;
     if (portraitTasks_.size() == kMostSearched) break;
-    portraitTasks_.push_back({i, t, {}, {}});
+    portraitTasks_.push_back({i, t, {}, {}, {}});
     isSearched_[i + 1] = 1;
   }
   if (portraitTasks_.empty()) return;
@@ -102,14 +102,17 @@ void Tracker::placeByPortraits(const Evidence& e, int64_t stepNs) {
   std::vector<PortraitTask>& tasks = portraitTasks_;
   if (tasks.empty()) return;
   const PortraitScene scene{e, *e.picture, taken_};
-  for (PortraitTask& task : tasks) task.match = findTrack(scene, task.track, stepNs);
+  for (PortraitTask& task : tasks) {
+    task.search = searchOf(task.track, stepNs);
+    task.match = findTrack(scene, task);
+  }
   std::sort(tasks.begin(), tasks.end(), [&](const PortraitTask& a, const PortraitTask& b) {
     return std::tuple(b.match.value(), -tracks_[a.track].foot, a.track) <
            std::tuple(a.match.value(), -tracks_[b.track].foot, b.track);
   });
-  for (PortraitTask& task : tasks) {
-    task.match = findTrack(scene, task.track, stepNs);
-    giveMatch(scene, task, stepNs);
+  for (size_t i = 0; i < tasks.size(); ++i) {
+    if (isDisturbed(i, e)) tasks[i].match = findTrack(scene, tasks[i]);
+    giveMatch(scene, tasks[i], stepNs);
   }
   for (const PortraitTask& task : tasks) {
     if (!sightings_[task.track].isMatched) continue;
@@ -121,7 +124,7 @@ void Tracker::placeByPortraits(const Evidence& e, int64_t stepNs) {
   findOwnBlobs(e);
 }
 
-PortraitMatch Tracker::findTrack(const PortraitScene& scene, size_t index, int64_t stepNs) {
+PortraitSearch Tracker::searchOf(size_t index, int64_t stepNs) const {
   const Track& track = tracks_[index];
   const Size size = track.portrait.sizePx;
   const int64_t since = std::min<int64_t>(stepNs + track.unseenNs, 10 * kReachNs);
@@ -136,8 +139,24 @@ PortraitMatch Tracker::findTrack(const PortraitScene& scene, size_t index, int64
   const Point reach{within(size.width, turn.x, frame_.width),
                     within(size.height / 2, turn.y, frame_.height)};
   const int calm = static_cast<int>(1 + track.unseenNs / kReachNs);
-  return findPortrait(track.portrait, scene, {track.portraitCorner(), reach, calm, turn},
-                      portraitScratch_);
+  return {track.portraitCorner(), reach, calm, turn};
+}
+
+PortraitMatch Tracker::findTrack(const PortraitScene& scene, const PortraitTask& task) {
+  return findPortrait(tracks_[task.track].portrait, scene, task.search, portraitScratch_);
+}
+
+/// Whether one that was given its match before has taken cells where this one was looked for.
+bool Tracker::isDisturbed(size_t index, const Evidence& e) const {
+  const PortraitTask& task = portraitTasks_[index];
+  const Box searched = searchedBox(tracks_[task.track].portrait, e, task.search);
+  for (size_t i = 0; i < index; ++i) {
+    const PortraitTask& other = portraitTasks_[i];
+    const Size size = tracks_[other.track].portrait.sizePx;
+    const Box taken = inflate({other.corner.x, other.corner.y, size.width, size.height}, e.stepPx);
+    if (sightings_[other.track].isMatched && !intersect(searched, taken).isEmpty()) return true;
+  }
+  return false;
 }
 
 /// Who is hidden by others is where they hide all of it: it may have stopped there. Unless it shows

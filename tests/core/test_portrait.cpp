@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "core/pixel.hpp"
 #include "core/portrait.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdlib>
 #include <functional>
+#include <tuple>
 
 namespace rg {
 namespace {
@@ -259,6 +263,150 @@ TEST(Portrait, ItsCellsAreThoseItCovers) {
   });
   EXPECT_EQ(cells, 10u * 15u);
   EXPECT_EQ(alike, cells);
+}
+
+/// The search to the letter: all samples at all places.
+class PlainSearch {
+ public:
+  PlainSearch(const Portrait& portrait, const PortraitScene& scene, const PortraitSearch& where)
+      : p_(portrait), scene_(scene), where_(where) {}
+
+  [[nodiscard]] PortraitMatch find() const {
+    const int skip = p_.grid.area() > 300 ? 2 : 1;
+    const Point reach = where_.reach, stride{(reach.x + 3) / 4, (reach.y + 3) / 4};
+    const Point from = placeOf(
+        bestOf({}, {reach.x / stride.x * stride.x, reach.y / stride.y * stride.y}, stride, skip));
+    const Key best = std::min(climb(from, stride, skip), climb({}, stride, skip));
+    const PortraitMatch at = scoreAt(placeOf(best), 1);
+    const auto top = [&](Point step) {
+      const auto gainAt = [&](int n) {
+        return scoreAt({placeOf(best).x + n * step.x, placeOf(best).y + n * step.y}, 1).gain;
+      };
+      const int64_t bend = 2 * at.gain - gainAt(-1) - gainAt(1);
+      if (bend <= 0) return 0;
+      return static_cast<int>(
+          std::clamp<int64_t>(divideRounded(8 * (gainAt(1) - gainAt(-1)), bend), -8, 8));
+    };
+    PortraitMatch match = at;
+    match.shift = {placeOf(best).x * 16 + top({1, 0}), placeOf(best).y * 16 + top({0, 1})};
+    match.gain -= costOf(placeOf(best), at.samples);
+    return match;
+  }
+
+ private:
+  using Key = std::tuple<int64_t, int, int, int>;
+  static Point placeOf(const Key& key) { return {std::get<3>(key), std::get<2>(key)}; }
+
+  /// 0 outside, 1 covered, 2 ground, 3 thing.
+  [[nodiscard]] int stateAt(int x, int y) const {
+    const Evidence& e = scene_.evidence;
+    if (!boundsOf(e.frame).contains({x, y})) return 0;
+    const size_t cell = e.at(x / e.stepPx, y / e.stepPx);
+    return scene_.taken[cell] != 0 ? 1 : e.group[cell] == 0 ? 2 : 3;
+  }
+  [[nodiscard]] PortraitMatch scoreAt(Point shift, int skip) const {
+    PortraitMatch score;
+    const int beside = scene_.evidence.stepPx;
+    const Point sides[] = {{-beside, 0}, {beside, 0}, {0, -beside}, {0, beside}};
+    for (int row = 0; row < p_.grid.height; row += skip)
+      for (int column = 0; column < p_.grid.width; column += skip) {
+        const PortraitSample& s = p_.samples[static_cast<size_t>(row * p_.grid.width + column)];
+        if (2 * s.weight < std::min(p_.frames, 8u) || s.weight == 0) continue;
+        const int x = where_.corner.x + shift.x + column * p_.stepPx;
+        const int y = where_.corner.y + shift.y + row * p_.stepPx;
+        ++score.samples;
+        score.covered += stateAt(x, y) == 1;
+        score.ground += stateAt(x, y) == 2;
+        score.gain -= stateAt(x, y) == 2 ? 2 : 0;
+        if (stateAt(x, y) != 3) continue;
+        ++score.seen;
+        const Picture& picture = scene_.picture;
+        const int difference = std::abs(s.red - picture.red().at(x, y)) +
+                               std::abs(s.green - picture.green().at(x, y)) +
+                               std::abs(s.blue - picture.blue().at(x, y));
+        const int gain = std::max(-8, 8 - difference / 4);
+        score.gain += gain;
+        score.agreeing += gain > 0;
+        for (int side = 0; side < 4 && gain > 0; ++side)
+          if ((s.edges >> side & 1) != 0 && stateAt(x + sides[side].x, y + sides[side].y) == 2)
+            score.gain += 8;
+      }
+    return score;
+  }
+  [[nodiscard]] int64_t costOf(Point shift, int64_t samples) const {
+    const int64_t width = p_.sizePx.width + 3 * where_.turn.x;
+    const int64_t height = p_.sizePx.height + 3 * where_.turn.y;
+    const int64_t across = shift.x * height, down = shift.y * width;
+    return (across * across + down * down) * 72 * samples /
+           (width * width * height * height * where_.calm);
+  }
+  [[nodiscard]] Key bestOf(Point middle, Point around, Point stride, int skip) const {
+    Key best{INT64_MAX, 0, 0, 0};
+    for (int y = middle.y - around.y; y <= middle.y + around.y; y += stride.y)
+      for (int x = middle.x - around.x; x <= middle.x + around.x; x += stride.x) {
+        if (std::abs(x) > where_.reach.x || std::abs(y) > where_.reach.y) continue;
+        const PortraitMatch score = scoreAt({x, y}, skip);
+        best = std::min(best, Key{costOf({x, y}, score.samples) - score.gain, x * x + y * y, y, x});
+      }
+    return best;
+  }
+  [[nodiscard]] Key climb(Point place, Point stride, int skip) const {
+    while (stride.x > 1 || stride.y > 1) {
+      stride = {(stride.x + 1) / 2, (stride.y + 1) / 2};
+      place = placeOf(bestOf(place, {2 * stride.x, 2 * stride.y}, stride, skip));
+    }
+    return bestOf(place, {1, 1}, {1, 1}, 1);
+  }
+
+  const Portrait& p_;
+  const PortraitScene& scene_;
+  const PortraitSearch& where_;
+};
+
+void expectSame(const PortraitMatch& a, const PortraitMatch& b) {
+  EXPECT_EQ(a.shift, b.shift);
+  EXPECT_EQ(a.gain, b.gain);
+  EXPECT_EQ(std::tuple(a.samples, a.agreeing, a.seen, a.covered, a.ground),
+            std::tuple(b.samples, b.agreeing, b.seen, b.covered, b.ground));
+}
+
+/// Things of spots in which noise changes, partly hidden, partly out of the frame.
+TEST(Portrait, TheSearchIsThatOfAllSamplesAtAllPlaces) {
+  for (uint32_t seed = 0; seed < 24; ++seed) {
+    const auto random = [&](int x, int y, uint32_t what) {
+      return static_cast<int>(
+          mixHash(static_cast<uint32_t>(x), static_cast<uint32_t>(y), seed * 8 + what) >> 8);
+    };
+    Stage stage({90, 70}, 1 + static_cast<int>(seed % 3));
+    const Size size{10 + random(1, 0, 1) % 30, 8 + random(2, 0, 1) % 30};
+    const Point corner{seed % 4 == 0 ? -6 : 30, seed % 5 == 0 ? 50 : 20};
+    const auto paintAt = [&](Point at, int noise) {
+      stage.paint([&](int x, int y) {
+        const Point p{x - at.x, y - at.y};
+        if (!boundsOf(size).contains(p) || (p.x < 5 && p.y < 5)) return -1;
+        return 40 + random(p.x / 4, p.y / 3, 2) % 120 + random(x, y, 3) % (noise + 1);
+      });
+    };
+    Portrait portrait;
+    paintAt(corner, 4);
+    for (int i = 0; i < 6; ++i) learn(portrait, stage.scene(), corner, size, stage.owner(), 1);
+    paintAt({corner.x + random(3, 0, 1) % 9 - 4, corner.y + random(4, 0, 1) % 7 - 3}, 30);
+    if (seed % 2 == 0) stage.take({corner.x + 8, 0, 6, 70});
+    PortraitScratch scratch;
+    const PortraitSearch where{corner, {6 + random(5, 0, 1) % 6, 6}, 1 + random(6, 0, 1) % 4, {}};
+    expectSame(findPortrait(portrait, stage.scene(), where, scratch),
+               PlainSearch(portrait, stage.scene(), where).find());
+  }
+}
+
+TEST(Portrait, WhatIsWholeIsFoundWithoutLookingAtAllSamplesAtAllPlaces) {
+  Stage stage({120, 90});
+  const Portrait portrait = learntAt(stage, {40, 30});
+  stage.paint(thingAt({43, 28}));
+  PortraitScratch scratch;
+  const PortraitSearch where{{40, 30}, {10, 10}, 1, {}};
+  EXPECT_EQ(placeOf(findPortrait(portrait, stage.scene(), where, scratch)), (Point{3, -2}));
+  EXPECT_LT(scratch.looks, 20'000u);  // All of them: 36 000.
 }
 
 }  // namespace
