@@ -22,7 +22,7 @@ constexpr double kStepsPerDoubling = 4;  // Time is noisy: a step is 19 %.
 
 constexpr size_t kMostKept = 100;
 
-int64_t dearest = 0;
+int64_t dearest = 0, last = 0;
 
 namespace fs = std::filesystem;
 
@@ -40,16 +40,20 @@ void noteCost(int64_t ns, int64_t units) {
   dearest = std::max(dearest, cost);
   const double step =
       kStepsPerDoubling * std::log2(static_cast<double>(std::max<int64_t>(cost, 1)));
-  const auto last = static_cast<double>(std::size(costCounters) - 1);
-  costCounters[static_cast<size_t>(std::clamp(step, 0.0, last))] = 1;
+  const auto highest = static_cast<double>(std::size(costCounters) - 1);
+  costCounters[static_cast<size_t>(std::clamp(step, 0.0, highest))] = 1;
 }
 
 int64_t takeDearest() {
   return std::exchange(dearest, 0);
 }
 
+int64_t lastCost() {
+  return last;
+}
+
 void keepIfDear(const uint8_t* data, size_t size) {
-  const int64_t cost = takeDearest();
+  const int64_t cost = last = takeDearest();
   const char* const folder = std::getenv("RG_SLOW_DIR");
   if (!folder) return;
   static std::set<std::string> kept = listKept(folder);

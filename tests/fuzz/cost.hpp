@@ -19,6 +19,9 @@ void noteCost(int64_t ns, int64_t units);
 /// dearest there by takeDearest(). They are named by their costs.
 void keepIfDear(const uint8_t* data, size_t size);
 
+/// That of the input that keepIfDear() looked at last.
+[[nodiscard]] int64_t lastCost();
+
 /// The processor's time of this thread.
 [[nodiscard]] inline int64_t cpuNs() {
   timespec now{};
