@@ -65,7 +65,7 @@ struct Evidence {
       const uint16_t* row = values.data() + at(0, run.y);
       for (uint16_t begin = run.begin, end = begin; begin < run.end; begin = end) {
         const uint16_t value = row[begin];
-        while (end < run.end && row[end] == value) ++end;
+        end = static_cast<uint16_t>(endOfRun(row, begin, run.end));
         visit(RegionRun{run.y, begin, end}, value);
       }
     }

@@ -25,10 +25,10 @@ void listParts(const OwnedCells& cells, ObjectPixelScratch& s) {
   std::partial_sum(s.firstOfRow.begin(), s.firstOfRow.end(), s.firstOfRow.begin());
 }
 
+/// Runs come in raster order.
 void addRun(const RegionRun& run, const Picture* picture, ObjectSums& sum) {
   const auto count = static_cast<uint64_t>(run.end - run.begin);
-  if (sum.count == 0 || run.y < sum.first.y || (run.y == sum.first.y && run.begin < sum.first.x))
-    sum.first = {run.begin, run.y};
+  if (sum.count == 0) sum.first = {run.begin, run.y};
   sum.count += count;
   sum.x += count * static_cast<uint64_t>(run.begin + run.end - 1) / 2;
   sum.y += count * run.y;
@@ -41,29 +41,47 @@ void addRun(const RegionRun& run, const Picture* picture, ObjectSums& sum) {
   sum.blue += add(picture->blue());
 }
 
+/// Writes the owners of a region's pixels, and how far each row has any.
+void fillSlots(std::span<const RegionRun> runs, const Evidence& grid, ObjectPixelScratch& s,
+               Image<uint16_t>& slots) {
+  for (const RegionRun& run : runs) {
+    const auto row = static_cast<size_t>(run.y / grid.stepPx);
+    const auto end = s.parts.begin() + s.firstOfRow[row + 1];
+    auto part = std::upper_bound(s.parts.begin() + s.firstOfRow[row], end, int{run.begin},
+                                 [](int x, const auto& p) { return x < p.end; });
+    for (; part != end && part->begin < run.end; ++part) {
+      const int first = std::max<int>(run.begin, part->begin);
+      const int last = std::min<int>(run.end, part->end);
+      std::fill(slots.row(run.y) + first, slots.row(run.y) + last, part->owner);
+      ObjectPixelScratch::Extent& extent = s.extents[run.y];
+      extent.first = std::min(extent.first, first);
+      extent.last = std::max(extent.last, last);
+    }
+  }
+}
+
 }  // namespace
 
+/// Objects are summed by the rows of slots: their runs are longer than those of the regions.
 void findObjectPixels(const Graph& graph, std::span<const uint8_t> isBackground,
                       const OwnedCells& cells, ObjectPixelScratch& s, const ObjectPixels& pixels) {
-  pixels.slots.resize(graph.size);
-  pixels.slots.fill(0);
+  Image<uint16_t>& slots = pixels.slots;
+  slots.resize(graph.size);
+  slots.fill(0);
   std::fill(pixels.sums.begin(), pixels.sums.end(), ObjectSums{});
   listParts(cells, s);
+  s.extents.assign(static_cast<size_t>(graph.size.height), {graph.size.width, 0});
+  for (size_t region = 0; region < graph.regions.size(); ++region)
+    if (isBackground[region] == 0) fillSlots(graph.runs.of(region), cells.grid, s, slots);
   const Picture* picture = graph.labels->picture.get();
-  for (size_t region = 0; region < graph.regions.size(); ++region) {
-    if (isBackground[region] != 0) continue;
-    for (const RegionRun& run : graph.runs.of(region)) {
-      const auto row = static_cast<size_t>(run.y / cells.grid.stepPx);
-      const auto end = s.parts.begin() + s.firstOfRow[row + 1];
-      auto part = std::upper_bound(s.parts.begin() + s.firstOfRow[row], end, int{run.begin},
-                                   [](int x, const auto& p) { return x < p.end; });
-      for (; part != end && part->begin < run.end; ++part) {
-        const RegionRun mine{run.y, std::max(run.begin, static_cast<uint16_t>(part->begin)),
-                             static_cast<uint16_t>(std::min<int>(run.end, part->end))};
-        std::fill(pixels.slots.row(run.y) + mine.begin, pixels.slots.row(run.y) + mine.end,
-                  part->owner);
-        addRun(mine, picture, pixels.sums[part->owner - 1u]);
-      }
+  for (int y = 0; y < graph.size.height; ++y) {
+    const uint16_t* row = slots.row(y);
+    const ObjectPixelScratch::Extent extent = s.extents[static_cast<size_t>(y)];
+    for (int begin = extent.first, end = begin; begin < extent.last; begin = end) {
+      end = endOfRun(row, begin, extent.last);
+      const RegionRun run{static_cast<uint16_t>(y), static_cast<uint16_t>(begin),
+                          static_cast<uint16_t>(end)};
+      if (row[begin] != 0) addRun(run, picture, pixels.sums[row[begin] - 1u]);
     }
   }
 }

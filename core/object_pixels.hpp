@@ -2,8 +2,8 @@
 // From the cells that the tracker gave to its tracks to the pixels of the objects (part of stage
 // 5).
 //
-// Cost: follows the runs of the regions that are not background, and their pixels only where they
-// are summed. Determinism: integer sums over pixels.
+// Cost: follows the runs of the regions that are not background, and the rows from the first to the
+// last pixel of an object. Determinism: integer sums over pixels.
 #pragma once
 
 #include "core/evidence.hpp"
@@ -39,6 +39,10 @@ struct ObjectPixelScratch {
   };
   std::vector<Part> parts;           ///< Of owned cells, row by row.
   std::vector<uint32_t> firstOfRow;  ///< As indices of `parts`, by row of cells.
+  struct Extent {
+    int first, last;  ///< Columns.
+  };
+  std::vector<Extent> extents;  ///< Of what is owned in each row of pixels.
 };
 
 /// Gives each pixel of a region that is not background to the owner of its cell. isBackground: of

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <span>
 #include <vector>
 
@@ -17,6 +18,20 @@ struct RegionRun {
   uint16_t end = 0;
   friend constexpr bool operator==(const RegionRun&, const RegionRun&) = default;
 };
+
+/// How far from `begin` on, at most to `end`, a row's values are those of its begin. Long runs are
+/// passed by four values at a time.
+[[nodiscard]] inline int endOfRun(const uint16_t* row, int begin, int end) {
+  const uint16_t value = row[begin];
+  const uint64_t four = value * uint64_t{0x0001'0001'0001'0001};
+  int at = begin + 1;
+  for (uint64_t next = 0; at + 4 <= end; at += 4) {
+    std::memcpy(&next, row + at, sizeof next);
+    if (next != four) break;
+  }
+  while (at < end && row[at] == value) ++at;
+  return at;
+}
 
 struct RegionRuns {
   std::vector<RegionRun> list;   ///< By region, then by row, then by column.

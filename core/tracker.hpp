@@ -230,6 +230,8 @@ class Tracker {
   void giveMatch(const PortraitScene& scene, PortraitTask& task, int64_t stepNs);
   void learnPortrait(size_t index, const Evidence& evidence);
   void giveBlobs(const Evidence& evidence);
+  template <class Visit>
+  void forStrayCells(const Evidence& evidence, const Visit& visit) const;
   void partTracks(const Evidence& evidence);
   void limitTracks(const Evidence& evidence);
   void reclaimExpected(const Evidence& evidence);

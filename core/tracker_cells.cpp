@@ -65,17 +65,28 @@ void Tracker::findOwnBlobs(const Evidence& e) {
     if (sole == kSeveral) sole = 0;
 }
 
+/// Calls visit(cell, its blob, the owner's blob) for the cells whose owner has most of its cells in
+/// another blob, in raster order. It may take the cell from its owner.
+template <class Visit>
+void Tracker::forStrayCells(const Evidence& e, const Visit& visit) const {
+  e.forParts(owner_, [&](const RegionRun& part, uint16_t owner) {
+    if (owner == 0) return;
+    const uint32_t main = blobOf_[owner - 1u];
+    const size_t end = e.at(part.end, part.y);
+    for (size_t cell = e.at(part.begin, part.y); cell < end; ++cell) {
+      const uint32_t blob = blobScratch_.label[cell];
+      if (blob != 0 && blob != main) visit(cell, blob, main);
+    }
+  });
+}
+
 /// As long as the scene doesn't say how large things are, one blob is one object: whoever is in it
 /// shares all of it, each the cells that are nearest, and has nothing of another blob that stands
 /// beside it and is about as high.
 void Tracker::giveBlobs(const Evidence& e) {
   if (scale_.isUniform()) return;
-  e.forForeground([&](size_t cell, int, int) {
-    const uint32_t blob = blobScratch_.label[cell];
+  forStrayCells(e, [&](size_t cell, uint32_t blob, uint32_t main) {
     const uint16_t owner = owner_[cell];
-    if (blob == 0 || owner == 0) return;
-    const uint32_t main = blobOf_[owner - 1u];
-    if (main == blob) return;
     const Box &mine = blobs_[main - 1].box, &other = blobs_[blob - 1].box;
     if (areStrangersApart(e, blobs_[main - 1].group, blobs_[blob - 1].group)) {
       owner_[cell] = 0;
@@ -96,11 +107,8 @@ void Tracker::giveBlobs(const Evidence& e) {
 /// other by a quarter of a width, it is given up. Parts of a body don't do that.
 void Tracker::partTracks(const Evidence& e) {
   findMajorities(tracks_.size(), majorities_, [&](auto&& count) {
-    e.forForeground([&](size_t cell, int, int) {
-      const uint16_t owner = owner_[cell];
-      const uint32_t blob = blobScratch_.label[cell];
-      if (owner != 0 && blob != 0 && blobOf_[owner - 1u] != blob) count(owner - 1u, blob, 1u);
-    });
+    forStrayCells(
+        e, [&](size_t cell, uint32_t blob, uint32_t) { count(owner_[cell] - 1u, blob, 1u); });
   });
   const Box inside = inflate(boundsOf(e.grid), -1);
   const auto isInside = [&](const Box& box) { return intersect(box, inside) == box; };

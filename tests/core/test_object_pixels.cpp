@@ -6,6 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <vector>
+
 namespace rg {
 namespace {
 
@@ -82,6 +85,15 @@ TEST(ObjectPixels, AreThoseOfTheForegroundInTheCellsOfAnObject) {
         ASSERT_EQ(found.slots.at(x, y), plain.slots.at(x, y)) << x << ' ' << y;
     EXPECT_EQ(found.sums, plain.sums) << size.width << 'x' << size.height;
   }
+}
+
+TEST(ObjectPixels, ARunEndsWhereTheValueDoes) {
+  for (int length = 1; length < 20; ++length)
+    for (int same = 1; same <= length; ++same) {
+      std::vector<uint16_t> row(static_cast<size_t>(length) + 4, 7);
+      std::fill(row.begin() + 2, row.begin() + 2 + same, uint16_t{0x8001});
+      EXPECT_EQ(endOfRun(row.data(), 2, 2 + length), 2 + same) << length;
+    }
 }
 
 }  // namespace
