@@ -65,6 +65,24 @@ class Bench(unittest.TestCase):
             self.assertEqual((status, errors), (0, ''))
             self.assertTrue(lines[0].endswith(pattern), lines[0])
 
+    @unittest.skipUnless('total_ms' in SUMS, 'of bench only')
+    def test_compares_expensive_frames_with_typical_ones(self):
+        status, lines, errors = bench('--worst', '--size', '48x32', '--warm-up', '1', *QUICK,
+                                      *SYNTHETIC)
+        self.assertEqual((status, errors), (0, ''))
+        self.assertTrue(lines[0].startswith('times typical'), lines[0])
+        self.assertEqual([line.split()[0] for line in lines[1:]],
+                         ['typical', 'flat', 'checkerboard', 'noise', 'comb', 'spiral', 'dots',
+                          'pan', '60-objects'])
+
+    @unittest.skipUnless('total_ms' in SUMS, 'of bench only')
+    def test_compares_with_the_clip_and_the_scene_where_there_is_a_clip(self):
+        if bench('--scene', 'clip', '--size', '48x32', *QUICK)[0] != 0:
+            self.skipTest('no clip')
+        _, lines, _ = bench('--worst', '--size', '48x32', '--warm-up', '1', *QUICK)
+        self.assertEqual([line.startswith('typical CPU ms') for line in lines[1:4]],
+                         [True, True, False])
+
     def test_measures_the_processor_on_the_foreground(self):
         status, lines, errors = bench('--size', '96x64', '--scope', 'foreground', '--cpu', *QUICK,
                                       *SYNTHETIC)
