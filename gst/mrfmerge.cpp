@@ -14,7 +14,8 @@
  *
  * Where tens of thousands of regions are asked for and one touches most of the others, the search
  * for the best groups is ended early, so that a frame's time stays in proportion to its regions;
- * the first such frame causes a warning.
+ * the first such frame causes a warning. Where more than half a million pixels of a frame seem to
+ * move otherwise than the camera, some rows of each region tell whether it does.
  *
  * From here on the results of all five stages are packed: a frame that waits in a queue holds less
  * than a byte of them for each pixel. Readers see no difference; stages can't work on them again.
