@@ -48,8 +48,10 @@ void findBins(const Picture& picture, const RegionRun& cells, Evidence& e) {
   const uint8_t *red = picture.red().row(y), *green = picture.green().row(y);
   const uint8_t* blue = picture.blue().row(y);
   uint8_t* bins = e.bin.data() + e.at(0, cells.y);
-  for (int cell = cells.begin; cell < cells.end; ++cell) {
-    const int x = e.middleOf(cell, 0).x;
+  const int end = e.middleOf(cells.end - 1, 0).x;  // The last one may be cut off.
+  int middle = e.middleOf(cells.begin, 0).x;
+  for (int cell = cells.begin; cell < cells.end; ++cell, middle += e.stepPx) {
+    const int x = std::min(middle, end);
     bins[cell] = colourBin(red[x], green[x], blue[x]);
   }
 }

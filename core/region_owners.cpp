@@ -28,12 +28,14 @@ void forLabels(const Labels& labels, const Evidence& grid, const RegionRun& cell
   const int y = grid.middleOf(0, cells.y).y + shift.y;
   if (y < 0 || y >= labels.ids.height()) return;
   const uint16_t* row = labels.ids.row(y);
-  const int width = labels.ids.width();
+  const auto width = static_cast<uint32_t>(labels.ids.width());
+  const int end = grid.middleOf(cells.end - 1, 0).x + shift.x;  // The last one may be cut off.
   uint16_t last = kNoRegion;
   uint32_t times = 0;
-  for (int cell = cells.begin; cell < cells.end; ++cell) {
-    const int x = grid.middleOf(cell, 0).x + shift.x;
-    const uint16_t label = x >= 0 && x < width ? row[x] : kNoRegion;
+  int middle = grid.middleOf(cells.begin, 0).x + shift.x;
+  for (int cell = cells.begin; cell < cells.end; ++cell, middle += grid.stepPx) {
+    const auto x = static_cast<uint32_t>(std::min(middle, end));  // Large where it is negative.
+    const uint16_t label = x < width ? row[x] : kNoRegion;
     if (label != last) {
       if (last != kNoRegion) visit(last, times);
       last = label;
