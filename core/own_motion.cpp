@@ -17,8 +17,8 @@ constexpr int64_t kNoiseUnit = 16;
 // In deviations of what noise gains: the best of thousands of shifts, and one that others suggest.
 constexpr int64_t kSearchGain = 4;
 constexpr int64_t kNoiseGain = 1;
-// Pixels that a round compares, but for a row of each region: more than move in frames of 1080
-// lines. Beyond it, rows are like those beside them.
+// Pixels that a round compares, but for a row of each region: all of a frame of 800x600, a quarter
+// of one of 1920x1080. Beyond it, rows are like those beside them.
 constexpr uint64_t kMostCompared = uint64_t{1} << 19;
 
 using Sums = OwnMotionScratch::Sums;
