@@ -3,8 +3,8 @@
 // comes where that element was reset instead, and the others never saw the
 // frame.
 #include "gst/meta/result_meta.hpp"
-#include "tests/support/digest.hpp"
 #include "tests/alloc/places.hpp"
+#include "tests/support/digest.hpp"
 #include "tests/support/harness.hpp"
 
 #include <cstdlib>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Each stage by itself: after an exception it goes on as after reset(Reset::Stream).
 #include "core/objects.hpp"
-#include "tests/support/digest.hpp"
 #include "tests/alloc/places.hpp"
 #include "tests/core/scenes.hpp"
+#include "tests/support/digest.hpp"
 
 #include <map>
 #include <new>
