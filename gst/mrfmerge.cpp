@@ -38,6 +38,7 @@
 #include <atomic>
 #include <cmath>
 #include <deque>
+#include <new>
 #include <utility>
 
 namespace rg {
@@ -158,17 +159,22 @@ class MrfMerge final : public ChainedFilter<Settings, ObjectStage, Motion> {
       publish(frame.buffer, std::move(objects));
   }
 
-  /// The frame's results in the form in which they wait for their readers.
+  /// The frame's results in the form in which they wait for their readers; as they are where there
+  /// is no memory for another form.
   std::shared_ptr<const Objects> pack(GstBuffer* buffer,
                                       const std::shared_ptr<const Objects>& objects) {
-    packer_.endFrame();  // Of the frame before, which may have ended early.
-    packMeta<Foreground>(buffer);
-    packMeta<Labels>(buffer);
-    packMeta<Graph>(buffer);
-    packMeta<Motion>(buffer);
-    auto packed = packer_.pack(objects);
-    packer_.endFrame();
-    return packed;
+    try {
+      packMeta<Foreground>(buffer);
+      packMeta<Labels>(buffer);
+      packMeta<Graph>(buffer);
+      packMeta<Motion>(buffer);
+      auto packed = packer_.pack(objects);
+      packer_.endFrame();
+      return packed;
+    } catch (const std::bad_alloc&) {
+      packer_.drop();
+      return objects;
+    }
   }
   template <class Payload>
   void packMeta(GstBuffer* buffer) {
