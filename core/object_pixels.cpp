@@ -77,11 +77,12 @@ void findObjectPixels(const Graph& graph, std::span<const uint8_t> isBackground,
   for (int y = 0; y < graph.size.height; ++y) {
     const uint16_t* row = slots.row(y);
     const ObjectPixelScratch::Extent extent = s.extents[static_cast<size_t>(y)];
-    for (int begin = extent.first, end = begin; begin < extent.last; begin = end) {
-      end = endOfRun(row, begin, extent.last);
+    for (int begin = extent.first; begin < extent.last;) {
+      const int end = endOfRun(row, begin, extent.last);
       const RegionRun run{static_cast<uint16_t>(y), static_cast<uint16_t>(begin),
                           static_cast<uint16_t>(end)};
       if (row[begin] != 0) addRun(run, picture, pixels.sums[row[begin] - 1u]);
+      begin = end;
     }
   }
 }
