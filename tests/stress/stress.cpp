@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Frames through each chain while other threads set and read every property and ask for the
-// latency, in an order that a printed seed decides. Run under ThreadSanitizer (tests/stress.sh).
+// latency, in an order that a printed seed decides. Run under ThreadSanitizer by tests/campaign.sh.
 //
 // usage: stress [--pushes N] [--size WxH] [--seed S]
 #include "core/pixel.hpp"
