@@ -171,7 +171,9 @@ void measure(const std::vector<cv::Mat>& clip, Size size, const Options& options
 
 std::vector<cv::Mat> readClip() {
   std::vector<cv::Mat> frames;
-  cv::VideoCapture capture(findClip());
+  const std::string clip = findClip();
+  if (clip.empty()) return frames;  // OpenCV would look for cameras of every kind.
+  cv::VideoCapture capture(clip);
   cv::Mat frame;
   while (frames.size() < kClipFrames && capture.read(frame)) frames.push_back(frame.clone());
   return frames;
