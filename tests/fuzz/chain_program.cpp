@@ -45,7 +45,7 @@ ChainProgram::ChainProgram(Bytes& bytes)
 
 void ChainProgram::run() {
   pushFrames(3);
-  for (size_t i = 0; i < kMostSteps && !bytes_.isEmpty() && framesLeft_ > 0; ++i) step();
+  for (size_t i = 0; i < kMostSteps && !bytes_.isEmpty() && isGoingOn(); ++i) step();
   gst_harness_push_event(chain_.harness(), gst_event_new_eos());
   pullAll();
 }
@@ -127,7 +127,7 @@ GstClockTime ChainProgram::nextTime() {
 
 void ChainProgram::pushFrames(int count) {
   const GstVideoInfo info = caps_.info();
-  for (int i = 0; i < count && framesLeft_ > 0; ++i) {
+  for (int i = 0; i < count && isGoingOn(); ++i) {
     BufferPtr buffer = paintScene(scene_, info);
     scene_.advance();
     GST_BUFFER_PTS(buffer.get()) = nextTime();
@@ -165,7 +165,6 @@ void ChainProgram::pushLyingFrame() {
     }
   }
   if (flags & 32) addRandomRois(buffer.get(), bytes_);
-  --framesLeft_;
   push(std::move(buffer));
 }
 
@@ -231,6 +230,7 @@ void ChainProgram::ask() {
 
 void ChainProgram::push(BufferPtr buffer) {
   --framesLeft_;
+  pixelsLeft_ -= caps_.width * caps_.height;
   chain_.push(std::move(buffer));
   pullAll();
   emptyBus();

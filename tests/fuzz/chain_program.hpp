@@ -30,6 +30,7 @@ class ChainProgram {
   void pushLyingFrame();
   void pushEvent();
   void ask();
+  [[nodiscard]] bool isGoingOn() const { return framesLeft_ > 0 && pixelsLeft_ > 0; }
   void push(testing::BufferPtr buffer);
   void pullAll();
   void emptyBus();
@@ -45,6 +46,7 @@ class ChainProgram {
   Times times_ = Times::Running;
   uint64_t time_ = 0, step_ = 40 * GST_MSECOND;
   int framesLeft_ = 80;
+  int pixelsLeft_ = 100000;  ///< One input must not take as long as a hundred others.
 };
 
 }  // namespace rg::fuzz

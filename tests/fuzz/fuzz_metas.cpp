@@ -7,6 +7,7 @@
 #include "tests/fuzz/read_metas.hpp"
 #include "tests/fuzz/set_property.hpp"
 
+#include <algorithm>
 #include <array>
 
 namespace rg::fuzz {
@@ -16,6 +17,14 @@ using testing::BufferPtr;
 using testing::Caps;
 using testing::Chain;
 
+/// Behind mrfmerge all results are packed; stages need others.
+constexpr const char* kProducers[] = {
+    "regiontrack threads=1",
+    "hsvsegment threads=1 ! srg threads=1 ! prmmotion threads=1 ! mrfmerge threads=1",
+    ("bgremove threads=1 training-frames=2 ! hsvsegment threads=1 ! srg threads=1 ! "
+     "prmmotion threads=1"),
+    "hsvsegment threads=1 ! srg threads=1 ! prmmotion threads=1",
+};
 constexpr const char* kReaders[] = {
     "regionoverlay trails=true contours=true vectors=true graph=true",
     "regionmask source=objects",
@@ -38,10 +47,7 @@ std::vector<BufferPtr> makeSources(Bytes& bytes) {
   std::vector<BufferPtr> sources;
   for (size_t s = 0; s < kResults; ++s) {
     const Caps caps{"GRAY8", bytes.pick(kSides), bytes.pick(kSides)};
-    Chain chain(bytes.flip() ? "regiontrack threads=1"
-                             : "hsvsegment threads=1 ! srg threads=1 ! prmmotion threads=1 ! "
-                               "mrfmerge threads=1",
-                caps);
+    Chain chain(bytes.pick(kProducers), caps);
     MovingScene scene = MovingScene::from(bytes);
     for (int i = bytes.between(1, 6); i > 0; --i) {
       BufferPtr out = chain.pass(paintScene(scene, caps.info()));
@@ -63,10 +69,12 @@ BufferPtr transformed(GstBuffer* source, Bytes& bytes) {
   switch (bytes.between(0, 3)) {
     case 0:
       return BufferPtr(gst_buffer_copy(source));
-    case 1:
-      return BufferPtr(gst_buffer_copy_region(
-          source, GST_BUFFER_COPY_ALL, bytes.take(),
-          bytes.flip() ? static_cast<gsize>(-1) : static_cast<gsize>(bytes.take())));
+    case 1: {
+      const gsize size = gst_buffer_get_size(source);
+      const gsize offset = bytes.between<gsize>(0, std::min<gsize>(size, 255));
+      return BufferPtr(gst_buffer_copy_region(source, GST_BUFFER_COPY_ALL, offset,
+                                              bytes.between<gsize>(0, size - offset)));
+    }
     case 2:
       return BufferPtr(gst_buffer_copy_deep(source));
     default:

@@ -24,9 +24,9 @@ void tryCaps(Bytes& bytes) {
   Chain chain(bytes.pick(kChains));
   const std::string text = "video/x-raw," + bytes.text(200);
   // GStreamer's own parser is critical of some texts.
-  g_log_set_always_fatal(static_cast<GLogLevelFlags>(G_LOG_FATAL_MASK));
+  g_log_set_default_handler(g_log_default_handler, nullptr);
   GstCaps* caps = gst_caps_from_string(text.c_str());
-  g_log_set_always_fatal(kFatalLevels);
+  g_log_set_default_handler(abortOnCritical, nullptr);
   if (!caps) return;
   if (gst_caps_is_fixed(caps) && gst_caps_get_size(caps) == 1) {
     GstVideoInfo info;
