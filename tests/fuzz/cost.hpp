@@ -9,7 +9,8 @@
 
 namespace rg::fuzz {
 
-/// Notes a cost, in the processor's nanoseconds, for so many units of work (pixels, say).
+/// Notes a cost, in the processor's nanoseconds, for so many units of work (pixels, say). With
+/// $RG_NO_COSTS the fuzzer is not told, and does the same in each run with one seed.
 void noteCost(int64_t ns, int64_t units);
 
 /// The dearest of the costs that were noted since the last call, in picoseconds a unit.
