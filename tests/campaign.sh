@@ -79,7 +79,7 @@ fuzz_one() {  # TARGET SECONDS [arguments of libFuzzer]
 run_fuzz() {
   build_fuzzers
   local seconds target
-  if ((is_short)); then  # The same inputs each time: a test must not fail by chance.
+  if ((is_short)); then  # Much the same inputs each time: a test must not fail by chance.
     local -A runs=([chain]=20 [lines]=30000 [metas]=100 [objects]=200 [text]=3000)
     corpora=corpus-short
     rm -rf "${fuzz_build:?}/$corpora"
