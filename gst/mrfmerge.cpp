@@ -18,7 +18,7 @@
  * move otherwise than the camera, some rows of each region tell whether it does.
  *
  * From here on the results of all five stages are packed: a frame that waits in a queue holds less
- * than a byte of them for each pixel. Readers see no difference; stages can't work on them again.
+ * than two bytes a pixel of them. Readers see no difference; stages can't work on them again.
  *
  * |[
  * gst-launch-1.0 -m filesrc location=clip.avi ! decodebin ! videoconvert ! bgremove ! hsvsegment !
