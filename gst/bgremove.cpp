@@ -11,7 +11,7 @@
  *   regionmask source=foreground ! videoconvert ! autovideosink
  * ]|
  */
-#include "core/background.hpp"
+#include "core/background/background.hpp"
 #include "gst/elements.hpp"
 #include "gst/support/interest_mask.hpp"
 #include "gst/support/pixel_filter.hpp"
@@ -24,12 +24,12 @@ namespace {
 
 GType methodType() {
   static const GEnumValue values[] = {
-      {static_cast<int>(BackgroundMethod::Hybrid),
+      {static_cast<int>(background::Method::Hybrid),
        "Several colours per pixel, holes filled, shadows, ghosts and light changes handled",
        "hybrid"},
-      {static_cast<int>(BackgroundMethod::Paper),
+      {static_cast<int>(background::Method::Paper),
        "One Gaussian per pixel as in section 2.2.1 of the paper", "paper"},
-      {static_cast<int>(BackgroundMethod::FrameDifference),
+      {static_cast<int>(background::Method::FrameDifference),
        "What changed since the frame before, and things that stopped, as in section 2.1 of the "
        "paper: the fastest",
        "frame-difference"},
@@ -40,8 +40,8 @@ GType methodType() {
 
 GType searchType() {
   static const GEnumValue values[] = {
-      {static_cast<int>(SearchScope::Frame), "The whole frame", "frame"},
-      {static_cast<int>(SearchScope::Areas),
+      {static_cast<int>(background::SearchScope::Frame), "The whole frame", "frame"},
+      {static_cast<int>(background::SearchScope::Areas),
        "The areas round the things of the frame before, and the rows whose turn it is", "areas"},
       {0, nullptr, nullptr}};
   static const GType type = registerEnum("GstRegionSearch", values);
@@ -50,16 +50,16 @@ GType searchType() {
 
 GType thresholdSourceType() {
   static const GEnumValue values[] = {
-      {static_cast<int>(ThresholdSource::Difference),
+      {static_cast<int>(background::ThresholdSource::Difference),
        "The histogram of the difference of two frames: follows the noise", "difference"},
-      {static_cast<int>(ThresholdSource::Frame),
+      {static_cast<int>(background::ThresholdSource::Frame),
        "The histogram of the frame itself: an eighth of its contrast", "frame"},
       {0, nullptr, nullptr}};
   static const GType type = registerEnum("GstRegionThresholdSource", values);
   return type;
 }
 
-struct Settings : PixelSettings, BackgroundParams, InterestSettings {};
+struct Settings : PixelSettings, background::Params, InterestSettings {};
 
 constexpr std::array kProperties{
     enumProperty<Settings, &Settings::method>("method", "How the background is modelled",
@@ -116,28 +116,28 @@ constexpr std::array kProperties{
 };
 
 /// Null where nothing is told.
-const char* messageOf(SceneEvent event) {
+const char* messageOf(background::SceneEvent event) {
   switch (event) {
-    case SceneEvent::None:
+    case background::SceneEvent::None:
       break;
-    case SceneEvent::LightSwitched:
+    case background::SceneEvent::LightSwitched:
       return "regiongraph-light-switched";
-    case SceneEvent::ColourSwitched:
+    case background::SceneEvent::ColourSwitched:
       return "regiongraph-night-switched";
-    case SceneEvent::CameraMoved:
+    case background::SceneEvent::CameraMoved:
       return "regiongraph-camera-moved";
-    case SceneEvent::CameraShaken:
+    case background::SceneEvent::CameraShaken:
       return "regiongraph-camera-shaken";
-    case SceneEvent::TooDark:
-    case SceneEvent::BrightAgain:
+    case background::SceneEvent::TooDark:
+    case background::SceneEvent::BrightAgain:
       return "regiongraph-too-dark";
   }
   return nullptr;
 }
 
-class BgRemove final : public PixelFilter<Settings, BackgroundStage> {
+class BgRemove final : public PixelFilter<Settings, background::Stage> {
  public:
-  explicit BgRemove(GstBaseTransform* element) : PixelFilter(element, makeBackgroundStage) {}
+  explicit BgRemove(GstBaseTransform* element) : PixelFilter(element, background::makeStage) {}
 
   bool start() override {
     interest_ = {};
@@ -155,24 +155,25 @@ class BgRemove final : public PixelFilter<Settings, BackgroundStage> {
     settings.interest =
         interest_.fit({GST_VIDEO_INFO_WIDTH(&frame.info), GST_VIDEO_INFO_HEIGHT(&frame.info)});
     if (!frame.isUsable) {
-      attachSkipped<Foreground>(frame);
+      attachSkipped<background::Foreground>(frame);
     } else if (auto picture = load(frame)) {
       auto result = stage().process(*std::move(picture), settings, frame.time);
       if (result) tell((*result)->scene, GST_BUFFER_PTS(frame.buffer));
-      attach<Foreground>(frame, std::move(result));
+      attach<background::Foreground>(frame, std::move(result));
     } else {
-      attach<Foreground>(frame, picture.error());
+      attach<background::Foreground>(frame, picture.error());
     }
     return GST_FLOW_OK;
   }
 
  private:
-  void tell(const Scene& scene, GstClockTime pts) {
+  void tell(const background::Scene& scene, GstClockTime pts) {
     const char* name = messageOf(scene.event);
     if (!name) return;
     GST_DEBUG_OBJECT(element(), "%s", name);
     GstStructure* fields = gst_structure_new_empty(name);
-    if (scene.event == SceneEvent::TooDark || scene.event == SceneEvent::BrightAgain)
+    if (scene.event == background::SceneEvent::TooDark ||
+        scene.event == background::SceneEvent::BrightAgain)
       gst_structure_set(fields, "dark", G_TYPE_BOOLEAN, scene.isDark, nullptr);
     postTimedMessage(element(), pts, fields);
   }

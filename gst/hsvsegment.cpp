@@ -11,7 +11,7 @@
  * ! regionmask source=labels ! pngenc ! multifilesink location=labels-%06d.png
  * ]|
  */
-#include "core/segmentation.hpp"
+#include "core/segmentation/segmentation.hpp"
 #include "gst/elements.hpp"
 #include "gst/support/pixel_filter.hpp"
 
@@ -41,7 +41,7 @@ GType scopeType() {
   return type;
 }
 
-struct Settings : PixelSettings, SegmentationParams {
+struct Settings : PixelSettings, segmentation::Params {
   ScopeChoice scopeChoice = ScopeChoice::Auto;
   std::string backgroundHue;
   std::string objectHue;
@@ -78,9 +78,9 @@ constexpr std::array kProperties{
     badBuffersProperty<Settings>(),
 };
 
-class HsvSegment final : public PixelFilter<Settings, SegmentationStage> {
+class HsvSegment final : public PixelFilter<Settings, segmentation::Stage> {
  public:
-  explicit HsvSegment(GstBaseTransform* element) : PixelFilter(element, makeSegmentationStage) {}
+  explicit HsvSegment(GstBaseTransform* element) : PixelFilter(element, segmentation::makeStage) {}
 
   bool start() override {
     hueText_ = {};
@@ -98,9 +98,11 @@ class HsvSegment final : public PixelFilter<Settings, SegmentationStage> {
       postWarning(read.error().message + "; what was set before stays in use");
     settings.hue = hue_;
     if (frame.isFirst)
-      autoScope_ = findResult<Foreground>(frame.buffer) ? Scope::Foreground : Scope::Frame;
+      autoScope_ = findResult<background::Foreground>(frame.buffer)
+                       ? segmentation::Scope::Foreground
+                       : segmentation::Scope::Frame;
     settings.scope = scopeOf(settings.scopeChoice);
-    if (settings.scope != Scope::Frame) return divideForeground(frame, settings);
+    if (settings.scope != segmentation::Scope::Frame) return divideForeground(frame, settings);
     divideFrame(frame, settings);
     return GST_FLOW_OK;
   }
@@ -111,21 +113,21 @@ class HsvSegment final : public PixelFilter<Settings, SegmentationStage> {
   Result<bool> followHue(const Settings& settings) {
     std::pair text{settings.backgroundHue, settings.objectHue};
     if (text == hueText_) return true;
-    const auto rules = parseHueRules(text.first, text.second);
+    const auto rules = segmentation::parseHueRules(text.first, text.second);
     hueText_ = std::move(text);
     if (!rules) return rules.error();
     hue_ = *rules;
     return true;
   }
 
-  [[nodiscard]] Scope scopeOf(ScopeChoice choice) const {
+  [[nodiscard]] segmentation::Scope scopeOf(ScopeChoice choice) const {
     switch (choice) {
       case ScopeChoice::Frame:
-        return Scope::Frame;
+        return segmentation::Scope::Frame;
       case ScopeChoice::Foreground:
-        return Scope::Foreground;
+        return segmentation::Scope::Foreground;
       case ScopeChoice::Areas:
-        return Scope::Areas;
+        return segmentation::Scope::Areas;
       case ScopeChoice::Auto:
         break;
     }
@@ -133,36 +135,37 @@ class HsvSegment final : public PixelFilter<Settings, SegmentationStage> {
   }
 
   GstFlowReturn divideForeground(const FilterFrame& frame, const Settings& settings) {
-    auto upstream = requireUnpacked<Foreground>(frame, "bgremove");
+    auto upstream = requireUnpacked<background::Foreground>(frame, "bgremove");
     if (upstream.flow != GST_FLOW_OK) return upstream.flow;
     if (upstream.result && upstream.result->picture)
       divide(frame, upstream.result->picture, upstream.result, settings);
     else
-      attachSkipped<Labels>(frame);
+      attachSkipped<segmentation::Labels>(frame);
     return GST_FLOW_OK;
   }
 
   void divideFrame(const FilterFrame& frame, const Settings& settings) {
-    const auto foreground = findResult<Foreground>(frame.buffer);
+    const auto foreground = findResult<background::Foreground>(frame.buffer);
     if (!frame.isUsable) {
-      attachSkipped<Labels>(frame);
+      attachSkipped<segmentation::Labels>(frame);
     } else if (foreground && foreground->picture) {
       divide(frame, foreground->picture, foreground, settings);
     } else if (auto picture = load(frame)) {
       divide(frame, *picture, nullptr, settings);
     } else {
-      attach<Labels>(frame, picture.error());
+      attach<segmentation::Labels>(frame, picture.error());
     }
   }
 
   void divide(const FilterFrame& frame, std::shared_ptr<const Picture> picture,
-              std::shared_ptr<const Foreground> foreground, const Settings& settings) {
-    attach<Labels>(frame, stage().process(std::move(picture), std::move(foreground), settings));
+              std::shared_ptr<const background::Foreground> foreground, const Settings& settings) {
+    attach<segmentation::Labels>(
+        frame, stage().process(std::move(picture), std::move(foreground), settings));
   }
 
-  Scope autoScope_ = Scope::Frame;
+  segmentation::Scope autoScope_ = segmentation::Scope::Frame;
   std::pair<std::string, std::string> hueText_;  ///< As last asked for.
-  HueRules hue_;
+  segmentation::HueRules hue_;
 };
 
 const Settings kDefaults;

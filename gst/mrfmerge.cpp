@@ -25,9 +25,7 @@
  *   srg ! prmmotion ! mrfmerge ! regionwrite location=objects.jsonl ! fakesink
  * ]|
  */
-#include "core/object_delay.hpp"
-#include "core/objects.hpp"
-#include "core/result_packer.hpp"
+#include "core/objects/objects.hpp"
 #include "gst/elements.hpp"
 #include "gst/support/frame_hold.hpp"
 #include "gst/support/object_messages.hpp"
@@ -46,7 +44,7 @@ namespace {
 
 constexpr int kManyStanding = 10;
 
-struct Settings : StageSettings, ObjectParams {
+struct Settings : StageSettings, objects::Params {
   double latencyS = 0.0;
 };
 
@@ -94,10 +92,10 @@ constexpr std::array kProperties{
     threadsProperty<Settings>(),
 };
 
-class MrfMerge final : public ChainedFilter<Settings, ObjectStage, Motion> {
+class MrfMerge final : public ChainedFilter<Settings, objects::Stage, motion::Motion> {
  public:
   explicit MrfMerge(GstBaseTransform* element)
-      : ChainedFilter(element, makeObjectStage, "prmmotion"), messages_(element) {}
+      : ChainedFilter(element, objects::makeStage, "prmmotion"), messages_(element) {}
 
   bool start() override {
     latency_ = static_cast<GstClockTime>(std::llround(currentSettings().latencyS * 1e9));
@@ -142,12 +140,12 @@ class MrfMerge final : public ChainedFilter<Settings, ObjectStage, Motion> {
   };
   using HeldBuffer = std::unique_ptr<GstBuffer, Unref>;
 
-  void handle(const FilterFrame& frame, std::shared_ptr<const Motion> motion,
+  void handle(const FilterFrame& frame, std::shared_ptr<const motion::Motion> motion,
               const Settings& settings) override {
     info_ = frame.info;
     auto objects = motion
                        ? orSkipped(frame, stage().process(std::move(motion), settings, frame.time))
-                       : skipped<Objects>(frame);
+                       : skipped<objects::Objects>(frame);
     if (objects->isCutShort && !std::exchange(hasToldCut_, true))
       postWarning(
           "So many small regions touch a large one that groups are not searched to the end; a "
@@ -161,13 +159,13 @@ class MrfMerge final : public ChainedFilter<Settings, ObjectStage, Motion> {
 
   /// The frame's results in the form in which they wait for their readers; as they are where there
   /// is no memory for another form.
-  std::shared_ptr<const Objects> pack(GstBuffer* buffer,
-                                      const std::shared_ptr<const Objects>& objects) {
+  std::shared_ptr<const objects::Objects> pack(
+      GstBuffer* buffer, const std::shared_ptr<const objects::Objects>& objects) {
     try {
-      packMeta<Foreground>(buffer);
-      packMeta<Labels>(buffer);
-      packMeta<Graph>(buffer);
-      packMeta<Motion>(buffer);
+      packMeta<background::Foreground>(buffer);
+      packMeta<segmentation::Labels>(buffer);
+      packMeta<graph::Graph>(buffer);
+      packMeta<motion::Motion>(buffer);
       auto packed = packer_.pack(objects);
       packer_.endFrame();
       return packed;
@@ -183,7 +181,7 @@ class MrfMerge final : public ChainedFilter<Settings, ObjectStage, Motion> {
   }
 
   /// Makes the place for hold() too: each result has one, whatever fails.
-  void delay(std::shared_ptr<const Objects> objects, int64_t timeNs) {
+  void delay(std::shared_ptr<const objects::Objects> objects, int64_t timeNs) {
     held_.emplace_back();
     const guint64 bytes = bytesOf(*objects);
     try {
@@ -202,7 +200,7 @@ class MrfMerge final : public ChainedFilter<Settings, ObjectStage, Motion> {
   }
 
   /// The same from its coming to its going. However many regions there are, none takes more.
-  [[nodiscard]] guint64 bytesOf(const Objects& objects) const {
+  [[nodiscard]] guint64 bytesOf(const objects::Objects& objects) const {
     return bytesOfFrame(info_) + kResultBytesPerRegion * objects.regionGroup.size();
   }
 
@@ -213,18 +211,18 @@ class MrfMerge final : public ChainedFilter<Settings, ObjectStage, Motion> {
              "regions.");
   }
 
-  void publish(GstBuffer* buffer, std::shared_ptr<const Objects> objects) {
+  void publish(GstBuffer* buffer, std::shared_ptr<const objects::Objects> objects) {
     addRoiMetas(buffer, info_, *objects);
     messages_.tell(*objects, GST_BUFFER_PTS(buffer));
-    attachResult<Objects>(buffer, std::move(objects));
+    attachResult<objects::Objects>(buffer, std::move(objects));
   }
 
   ObjectMessages messages_;
-  ResultPacker packer_;
+  objects::ResultPacker packer_;
   bool hasToldCut_ = false;  ///< Since the element started.
   GstVideoInfo info_{};      ///< Of the frames that are held.
   std::atomic<GstClockTime> latency_ = 0;
-  ObjectDelay delay_;
+  objects::ObjectDelay delay_;
   std::deque<HeldBuffer> held_;  ///< Each belongs to a result in `delay_`.
   guint64 heldBytes_ = 0;        ///< Of both.
   int64_t lastNs_ = 0;           ///< Of the frame before.

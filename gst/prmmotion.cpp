@@ -12,7 +12,7 @@
  *   prmmotion max-shift=32 ! regionwrite format=regions location=regions.csv ! fakesink
  * ]|
  */
-#include "core/region_motion.hpp"
+#include "core/motion/motion.hpp"
 #include "gst/elements.hpp"
 #include "gst/support/stage_filter.hpp"
 
@@ -21,7 +21,7 @@
 namespace rg {
 namespace {
 
-struct Settings : StageSettings, MotionParams {};
+struct Settings : StageSettings, motion::Params {};
 
 constexpr std::array kProperties{
     property<Settings, &Settings::maxShiftPx>(
@@ -34,17 +34,18 @@ constexpr std::array kProperties{
     threadsProperty<Settings>(),
 };
 
-class PrmMotion final : public ChainedFilter<Settings, MotionStage, Graph> {
+class PrmMotion final : public ChainedFilter<Settings, motion::Stage, graph::Graph> {
  public:
-  explicit PrmMotion(GstBaseTransform* element) : ChainedFilter(element, makeMotionStage, "srg") {}
+  explicit PrmMotion(GstBaseTransform* element)
+      : ChainedFilter(element, motion::makeStage, "srg") {}
 
  private:
-  void handle(const FilterFrame& frame, std::shared_ptr<const Graph> graph,
+  void handle(const FilterFrame& frame, std::shared_ptr<const graph::Graph> graph,
               const Settings& settings) override {
     if (graph)
-      attach<Motion>(frame, stage().process(std::move(graph), settings));
+      attach<motion::Motion>(frame, stage().process(std::move(graph), settings));
     else
-      attachSkipped<Motion>(frame);
+      attachSkipped<motion::Motion>(frame);
   }
 };
 

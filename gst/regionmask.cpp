@@ -193,9 +193,9 @@ gboolean proposeAllocation(GstBaseTransform*, GstQuery*, GstQuery* query) {
 /// memory don't.
 gboolean transformMeta(GstBaseTransform* element, GstBuffer* to, GstMeta* meta, GstBuffer* from) {
   const GType api = meta->info->api;
-  for (const GType ours :
-       {metaInfo<Foreground>()->api, metaInfo<Labels>()->api, metaInfo<Graph>()->api,
-        metaInfo<Motion>()->api, metaInfo<Objects>()->api})
+  for (const GType ours : {metaInfo<background::Foreground>()->api,
+                           metaInfo<segmentation::Labels>()->api, metaInfo<graph::Graph>()->api,
+                           metaInfo<motion::Motion>()->api, metaInfo<objects::Objects>()->api})
     if (api == ours) return TRUE;
   if (api == GST_VIDEO_REGION_OF_INTEREST_META_API_TYPE) return TRUE;
   return GST_BASE_TRANSFORM_CLASS(parentClass)->transform_meta(element, to, meta, from);

@@ -73,16 +73,16 @@ constexpr std::array kProperties{
 
 /// The results on one frame.
 struct Results {
-  std::shared_ptr<const Foreground> foreground;
-  std::shared_ptr<const Graph> graph;
-  std::shared_ptr<const Motion> motion;
-  std::shared_ptr<const Objects> objects;
+  std::shared_ptr<const background::Foreground> foreground;
+  std::shared_ptr<const graph::Graph> graph;
+  std::shared_ptr<const motion::Motion> motion;
+  std::shared_ptr<const objects::Objects> objects;
 
   explicit Results(GstBuffer* buffer)
-      : foreground(findResult<Foreground>(buffer)),
-        graph(findResult<Graph>(buffer)),
-        motion(findResult<Motion>(buffer)),
-        objects(findResult<Objects>(buffer)) {}
+      : foreground(findResult<background::Foreground>(buffer)),
+        graph(findResult<graph::Graph>(buffer)),
+        motion(findResult<motion::Motion>(buffer)),
+        objects(findResult<objects::Objects>(buffer)) {}
 
   /// Whether any of what is wanted can be drawn.
   [[nodiscard]] bool suffice(const Settings& settings) const {

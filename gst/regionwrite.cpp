@@ -22,10 +22,7 @@
  *   srg ! prmmotion ! mrfmerge ! regionwrite location=objects.jsonl ! fakesink
  * ]|
  */
-#include "core/text/graph.hpp"
-#include "core/text/json.hpp"
-#include "core/text/mot.hpp"
-#include "core/text/regions.hpp"
+#include "core/text/text.hpp"
 #include "gst/elements.hpp"
 #include "gst/support/capture_time.hpp"
 #include "gst/support/line_file.hpp"
@@ -125,18 +122,18 @@ class RegionWrite final : public StageFilter {
   }
 
   GstFlowReturn appendRegions(const FilterFrame& frame, const text::FrameStamp& stamp) {
-    const auto upstream = require<Graph>(frame, "srg");
+    const auto upstream = require<graph::Graph>(frame, "srg");
     if (!upstream.result) return upstream.flow;
-    const auto motion = findResult<Motion>(frame.buffer);
-    const auto objects = findResult<Objects>(frame.buffer);
+    const auto motion = findResult<motion::Motion>(frame.buffer);
+    const auto objects = findResult<objects::Objects>(frame.buffer);
     text::appendRegions(lines_, {upstream.result.get(), motion.get(), objects.get()}, stamp);
     return GST_FLOW_OK;
   }
 
   GstFlowReturn appendObjects(const FilterFrame& frame, const text::FrameStamp& stamp) {
-    const auto upstream = require<Objects>(frame, "mrfmerge");
+    const auto upstream = require<objects::Objects>(frame, "mrfmerge");
     if (upstream.flow != GST_FLOW_OK) return upstream.flow;
-    const Objects& objects = upstream.result ? *upstream.result : skipped_;
+    const objects::Objects& objects = upstream.result ? *upstream.result : skipped_;
     if (format_ == Format::Mot) {
       text::appendMot(lines_, objects, stamp);
     } else if (format_ == Format::Graph) {
@@ -169,7 +166,7 @@ class RegionWrite final : public StageFilter {
   LineFile file_;
   uint64_t frames_ = 0;
   std::string lines_;
-  const Objects skipped_;  ///< Written for a frame without a result.
+  const objects::Objects skipped_;  ///< Written for a frame without a result.
 };
 
 const Settings kDefaults;

@@ -11,7 +11,7 @@
  * ! prmmotion ! mrfmerge ! regionoverlay ! videoconvert ! autovideosink
  * ]|
  */
-#include "core/region_graph.hpp"
+#include "core/graph/graph.hpp"
 #include "gst/elements.hpp"
 #include "gst/support/stage_filter.hpp"
 
@@ -29,7 +29,7 @@ GType connectivityType() {
   return type;
 }
 
-struct Settings : StageSettings, GraphParams {};
+struct Settings : StageSettings, graph::Params {};
 
 constexpr std::array kProperties{
     enumProperty<Settings, &Settings::connectivity>(
@@ -37,17 +37,18 @@ constexpr std::array kProperties{
     threadsProperty<Settings>(),
 };
 
-class Srg final : public ChainedFilter<Settings, GraphStage, Labels> {
+class Srg final : public ChainedFilter<Settings, graph::Stage, segmentation::Labels> {
  public:
-  explicit Srg(GstBaseTransform* element) : ChainedFilter(element, makeGraphStage, "hsvsegment") {}
+  explicit Srg(GstBaseTransform* element)
+      : ChainedFilter(element, graph::makeStage, "hsvsegment") {}
 
  private:
-  void handle(const FilterFrame& frame, std::shared_ptr<const Labels> labels,
+  void handle(const FilterFrame& frame, std::shared_ptr<const segmentation::Labels> labels,
               const Settings& settings) override {
     if (labels)
-      attach<Graph>(frame, stage().process(std::move(labels), settings));
+      attach<graph::Graph>(frame, stage().process(std::move(labels), settings));
     else
-      attachSkipped<Graph>(frame);
+      attachSkipped<graph::Graph>(frame);
   }
 };
 

@@ -4,16 +4,21 @@
 
 usage: layers.py [ROOT]      (default: the repository that this file is in)
 
-Arrows only point left: core <- kernels <- gst <- examples; tests may see all. No element includes
-another one, except regiontrack, which is made of them, and plugin, which registers them.
+Arrows only point left: core <- kernels <- gst <- examples; tests may see all. Inside core too:
+base <- background <- segmentation <- graph <- motion <- objects <- text, and of another room only
+its contract is included (core/motion/motion.hpp), but all of base. No element includes another one,
+except regiontrack, which is made of them, and plugin, which registers them. No two types of core
+have one qualified name.
 Prints one line per finding and exits 1 when there is any.
 """
+import collections
 import pathlib
 import re
 import subprocess
 import sys
 
 LAYERS = ('core', 'kernels', 'gst', 'examples')
+ROOMS = ('base', 'background', 'segmentation', 'graph', 'motion', 'objects', 'text')
 FOREIGN = {  # Outside libraries that a layer must not include.
     'core': r'(glib|gio|gst|gobject|opencv|cuda|cub|thrust)',
     'kernels': r'(glib|gio|gst|gobject|opencv)',
@@ -22,12 +27,16 @@ ELEMENTS = ('bgremove', 'hsvsegment', 'srg', 'prmmotion', 'mrfmerge', 'regionove
             'regionwrite', 'regiontrack')
 SEES_ELEMENTS = ('regiontrack', 'plugin')
 MAX_FILE_LINES, MAX_FUNCTION_LINES, MAX_COLUMNS = 400, 50, 100
+MAX_FOLDER_FILES = 25  # Of core.
 CODE = ('.cpp', '.hpp', '.h', '.cu', '.cuh')
 SCRIPTS = ('.py', '.sh', '.map', '.supp')
 SPDX = 'SPDX-License-Identifier: LGPL-2.1-or-later'
 UNFINISHED = re.compile(r'\b(TO' r'DO|FIX' r'ME|XX' r'X)\b')  # Split so that this line is none.
 INVISIBLE = re.compile('[\u200b-\u200f\u2028-\u202f\u2060-\u2064\ufeff]')
 INCLUDE = re.compile(r'^\s*#\s*include\s*(["<])([^">]+)[">]')
+NAMESPACE = re.compile(r'^(?:inline )?namespace(?: ([\w:]+))? \{$')
+TYPE = re.compile(r'^(?:(?:struct|class|union|enum(?: class)?) (?:\[\[\w+\]\] )?(\w+)\b(?!::)[^;]*'
+                  r'|using (\w+) =.*)$')
 SUBJECT = re.compile(r'^([a-z][a-z0-9.-]*: \S.*[^.\s]|Revert ".*")$')
 MAX_SUBJECT = 72
 CHECKED_COMMITS = 10
@@ -75,8 +84,67 @@ def arrow_findings(relative, lines):
             yield number, f'a public header must not include {target}'
         if quote == '<' and layer in FOREIGN and re.match(FOREIGN[layer], target):
             yield number, f'{layer} must not include <{target}>'
+        if quote == '"' and top == 'core':
+            yield from room_findings(relative, number, target)
         if layer == 'gst' and quote == '"':
             yield from element_findings(relative, number, target)
+
+
+def room_of(parts):
+    """The room of core that a path belongs to, none outside of core."""
+    if parts[0] != 'core' or len(parts) < 3:
+        return None
+    return parts[2] if parts[1] == 'simd' else parts[1]
+
+
+def room_findings(relative, number, target):
+    parts = pathlib.PurePath(target).parts
+    own, other = room_of(relative.parts), room_of(parts)
+    if other in (own, 'base'):
+        return
+    if other not in ROOMS:
+        yield number, f'core has no room for {target}'
+    elif own and ROOMS.index(other) > ROOMS.index(own):
+        yield number, f'{own} must not include {target}'
+    elif target != f'core/{other}/{other}.hpp':
+        yield number, f'of {other} only the contract may be included, not {target}'
+
+
+def folder_findings(root, paths):
+    """Folders of core that hold too much to be seen at a glance."""
+    counts = collections.Counter(path.relative_to(root).parent.as_posix() for path in paths
+                                 if path.suffix in CODE)
+    for folder, count in sorted(counts.items()):
+        if folder.split('/')[0] == 'core' and count > MAX_FOLDER_FILES:
+            yield f'{folder}: {count} files (at most {MAX_FOLDER_FILES})'
+
+
+def types_of(lines):
+    """The qualified names of the types that a file defines for others, as clang-format lays it out:
+    what stands in a namespace begins at the margin."""
+    scopes, names = [], set()
+    for line in lines:
+        opened = NAMESPACE.match(line)
+        if opened:
+            scopes.append(opened[1])  # None: the file's own.
+        elif line.startswith('}  // namespace'):
+            scopes.pop()
+        elif None not in scopes and (found := TYPE.match(line)):
+            names.add('::'.join(scopes + [found[1] or found[2]]))
+    return names
+
+
+def type_findings(root, paths):
+    """What the linker does not see: two types of one name are one to it, whichever comes first."""
+    places = collections.defaultdict(list)
+    for path in paths:
+        relative = path.relative_to(root)
+        if relative.parts[0] == 'core' and path.suffix in CODE:
+            for name in types_of(path.read_text(encoding='utf-8').splitlines()):
+                places[name].append(relative.as_posix())
+    for name, where in sorted(places.items()):
+        if len(where) > 1:
+            yield f'{where[0]}: {name} is defined in {", ".join(where[1:])} too'
 
 
 def element_findings(relative, number, target):
@@ -159,8 +227,10 @@ def commit_findings(root):
 def main():
     root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else __file__).resolve()
     root = root if root.is_dir() else root.parent.parent
+    paths = tracked(root)
     findings = [f'{path.relative_to(root)}:{number}: {what}'
-                for path in tracked(root) for number, what in file_findings(root, path)]
+                for path in paths for number, what in file_findings(root, path)]
+    findings += [*folder_findings(root, paths), *type_findings(root, paths)]
     findings += [f'commit {commit}: {what}' for commit, what in commit_findings(root)]
     print('\n'.join(findings + [f'layers: {len(findings)} findings']))
     sys.exit(1 if findings else 0)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/text/graph.hpp"
 
-#include "core/mapping.hpp"
+#include "core/base/mapping.hpp"
 #include "core/text/json_parts.hpp"
 
 #include <algorithm>
@@ -12,11 +12,11 @@ namespace {
 constexpr int64_t kEnergyUnit = 256;
 constexpr int64_t kCentroidUnit = 256;
 
-bool isKept(const Objects& objects, const Arc& arc) {
+bool isKept(const objects::Objects& objects, const graph::Arc& arc) {
   return objects.regionGroup[arc.a - 1u] == objects.regionGroup[arc.b - 1u];
 }
 
-void appendTerms(std::string& out, const ArcEnergy& energy) {
+void appendTerms(std::string& out, const objects::ArcEnergy& energy) {
   appendReal(out, "motion", energy.motion, kEnergyUnit);
   out += ',';
   appendReal(out, "border", energy.border, kEnergyUnit);
@@ -26,14 +26,14 @@ void appendTerms(std::string& out, const ArcEnergy& energy) {
   appendReal(out, "prediction", energy.prediction, kEnergyUnit);
 }
 
-bool isGround(const Objects& objects, size_t region) {
+bool isGround(const objects::Objects& objects, size_t region) {
   return objects.regionGroup[region] == objects.groundGroup;
 }
 
 /// A term below 0 counts where its opposite would otherwise.
-void addGround(const Objects& objects, ArcEnergy& sum) {
+void addGround(const objects::Objects& objects, objects::ArcEnergy& sum) {
   for (size_t i = 0; i < objects.ground.size(); ++i) {
-    const GroundEnergy& energy = objects.ground[i];
+    const objects::GroundEnergy& energy = objects.ground[i];
     const bool isKept = isGround(objects, i);
     sum.motion += std::max(int64_t{0}, isKept ? energy.motion : -energy.motion);
     sum.prediction += std::max(int64_t{0}, isKept ? -energy.prediction : energy.prediction);
@@ -41,10 +41,10 @@ void addGround(const Objects& objects, ArcEnergy& sum) {
 }
 
 /// The terms of U that count: U1 of kept arcs, the others of broken ones.
-void appendTotals(std::string& out, const Objects& objects, const Graph* graph) {
-  ArcEnergy sum;
+void appendTotals(std::string& out, const objects::Objects& objects, const graph::Graph* graph) {
+  objects::ArcEnergy sum;
   for (size_t i = 0; graph && i < graph->arcs.size(); ++i) {
-    const ArcEnergy& arc = objects.arcs[i];
+    const objects::ArcEnergy& arc = objects.arcs[i];
     if (isKept(objects, graph->arcs[i])) {
       sum.motion += arc.motion;
     } else {
@@ -61,8 +61,8 @@ void appendTotals(std::string& out, const Objects& objects, const Graph* graph) 
   out += '}';
 }
 
-void appendGround(std::string& out, const Objects& objects, size_t region) {
-  const GroundEnergy& energy = objects.ground[region];
+void appendGround(std::string& out, const objects::Objects& objects, size_t region) {
+  const objects::GroundEnergy& energy = objects.ground[region];
   out += ",\"ground\":{";
   appendReal(out, "motion", energy.motion, kEnergyUnit);
   out += ',';
@@ -72,9 +72,10 @@ void appendGround(std::string& out, const Objects& objects, size_t region) {
   out += isGround(objects, region) ? ",\"kept\":true}" : ",\"kept\":false}";
 }
 
-void appendRegion(std::string& out, const Objects& objects, size_t index, const FrameMap& map) {
-  const Region& region = objects.motion->graph->regions[index];
-  const RegionMotion& motion = objects.motion->regions[index];
+void appendRegion(std::string& out, const objects::Objects& objects, size_t index,
+                  const FrameMap& map) {
+  const graph::Region& region = objects.motion->graph->regions[index];
+  const motion::RegionMotion& motion = objects.motion->regions[index];
   out += "{\"id\":";
   appendUnsigned(out, index + 1);
   out += ',';
@@ -86,9 +87,9 @@ void appendRegion(std::string& out, const Objects& objects, size_t index, const 
   out += ',';
   appendColour(out, region.colour);
   out += ',';
-  appendPair(out, "motion", map.x(motion.dx), map.y(motion.dy), kMotionUnit);
+  appendPair(out, "motion", map.x(motion.dx), map.y(motion.dy), motion::kMotionUnit);
   out += ',';
-  appendReal(out, "reliability", motion.reliability, kFullReliability);
+  appendReal(out, "reliability", motion.reliability, motion::kFullReliability);
   out += ',';
   appendNumber(out, "group", objects.regionGroup[index]);
   out += ",\"expected\":";
@@ -99,9 +100,9 @@ void appendRegion(std::string& out, const Objects& objects, size_t index, const 
   out += '}';
 }
 
-void appendArc(std::string& out, const Objects& objects, size_t index) {
-  const Arc& arc = objects.motion->graph->arcs[index];
-  const ArcEnergy& energy = objects.arcs[index];
+void appendArc(std::string& out, const objects::Objects& objects, size_t index) {
+  const graph::Arc& arc = objects.motion->graph->arcs[index];
+  const objects::ArcEnergy& energy = objects.arcs[index];
   out += '{';
   appendNumber(out, "a", arc.a);
   out += ',';
@@ -119,10 +120,10 @@ void appendArc(std::string& out, const Objects& objects, size_t index) {
 
 }  // namespace
 
-void appendGraph(std::string& out, const Objects& objects, const FrameStamp& stamp) {
+void appendGraph(std::string& out, const objects::Objects& objects, const FrameStamp& stamp) {
   const FrameMap map = mapBetween(objects.size, stamp.size);
   const bool hasGraph = objects.motion && objects.motion->graph && !objects.regionGroup.empty();
-  const Graph* graph = hasGraph ? objects.motion->graph.get() : nullptr;
+  const graph::Graph* graph = hasGraph ? objects.motion->graph.get() : nullptr;
   appendHead(out, objects.status, stamp, kGraphSchemaVersion);
   appendTotals(out, objects, graph);
   out += ",\"regions\":[";

@@ -3,7 +3,7 @@
 // gst/regiongraph-graph.schema.json describes it.
 #pragma once
 
-#include "core/objects.hpp"
+#include "core/objects/objects.hpp"
 #include "core/text/line.hpp"
 
 #include <string>
@@ -18,6 +18,6 @@ inline constexpr std::string_view kGraphSchemaVersion = "1.1";
 /// was kept. Reads the result's sources: a result without them has no regions and no arcs.
 /// Positions and motions are mapped to the frame of `stamp`; areas of regions too. Borders and
 /// energies are those of the frame that was looked at.
-void appendGraph(std::string& out, const Objects& objects, const FrameStamp& stamp);
+void appendGraph(std::string& out, const objects::Objects& objects, const FrameStamp& stamp);
 
 }  // namespace rg::text

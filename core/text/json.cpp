@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/text/json.hpp"
 
-#include "core/mapping.hpp"
+#include "core/base/mapping.hpp"
 #include "core/text/json_parts.hpp"
 #include "core/text/names.hpp"
 
@@ -34,7 +34,8 @@ void appendContour(std::string& out, std::span<const Point> contour, const Frame
   out += ']';
 }
 
-void appendObject(std::string& out, const Object& object, const FrameMap& map, Contours contours) {
+void appendObject(std::string& out, const objects::Object& object, const FrameMap& map,
+                  Contours contours) {
   out += "{\"id\":";
   appendUnsigned(out, object.id);
   out += ',';
@@ -42,12 +43,13 @@ void appendObject(std::string& out, const Object& object, const FrameMap& map, C
   out += ',';
   appendBox(out, map.box(object.box));
   out += ',';
-  appendPair(out, "centroid", map.x(object.centroidX), map.y(object.centroidY), kPositionUnit);
+  appendPair(out, "centroid", map.x(object.centroidX), map.y(object.centroidY),
+             objects::kPositionUnit);
   out += ',';
   appendNumber(out, "area", map.area(object.areaPx));
   out += ',';
   if (object.hasSpeed)
-    appendPair(out, "velocity", map.x(object.speedX), map.y(object.speedY), kPositionUnit);
+    appendPair(out, "velocity", map.x(object.speedX), map.y(object.speedY), objects::kPositionUnit);
   else
     out += "\"velocity\":null";
   out += ',';
@@ -63,7 +65,7 @@ void appendObject(std::string& out, const Object& object, const FrameMap& map, C
   out += '}';
 }
 
-void appendEvent(std::string& out, const Event& event) {
+void appendEvent(std::string& out, const objects::Event& event) {
   out += '{';
   appendWord(out, "type", name(event.kind));
   out += ',';
@@ -73,20 +75,21 @@ void appendEvent(std::string& out, const Event& event) {
 
 }  // namespace
 
-void appendJson(std::string& out, const Objects& objects, const FrameStamp& stamp,
+void appendJson(std::string& out, const objects::Objects& objects, const FrameStamp& stamp,
                 Contours contours) {
   const FrameMap map = mapBetween(objects.size, stamp.size);
   appendHead(out, objects.status, stamp, kJsonSchemaVersion);
   out += ',';
-  appendPair(out, "camera", map.x(objects.cameraDx), map.y(objects.cameraDy), kPositionUnit);
+  appendPair(out, "camera", map.x(objects.cameraDx), map.y(objects.cameraDy),
+             objects::kPositionUnit);
   out += ",\"objects\":[";
-  for (const Object& object : objects.objects) {
-    if (!isListed(object.state)) continue;
+  for (const objects::Object& object : objects.objects) {
+    if (!objects::isListed(object.state)) continue;
     appendComma(out);
     appendObject(out, object, map, contours);
   }
   out += "],\"events\":[";
-  for (const Event& event : objects.events) {
+  for (const objects::Event& event : objects.events) {
     appendComma(out);
     appendEvent(out, event);
   }

@@ -2,7 +2,7 @@
 // JSON lines: one object a frame, as gst/regiongraph.schema.json describes it.
 #pragma once
 
-#include "core/objects.hpp"
+#include "core/objects/objects.hpp"
 #include "core/text/line.hpp"
 
 #include <string>
@@ -17,7 +17,7 @@ enum class Contours : uint8_t { Omit, Write };
 
 /// Appends one line. Objects in the order of their ids, those of isListed() states only.
 /// Keys x, y, w, h, id and resolution mean what they mean in DL Streamer's JSON.
-void appendJson(std::string& out, const Objects& objects, const FrameStamp& stamp,
+void appendJson(std::string& out, const objects::Objects& objects, const FrameStamp& stamp,
                 Contours contours);
 
 }  // namespace rg::text

@@ -47,7 +47,7 @@ void appendBox(std::string& out, const Box& box) {
   appendNumber(out, "h", box.height);
 }
 
-void appendColour(std::string& out, const Colour& colour) {
+void appendColour(std::string& out, const graph::Colour& colour) {
   constexpr std::string_view kHex = "0123456789abcdef";
   out += "\"colour\":\"#";
   for (const uint8_t channel : {colour.red, colour.green, colour.blue}) {

@@ -2,9 +2,9 @@
 // What all JSON lines share: the head of a line, and pairs, boxes and colours as JSON.
 #pragma once
 
-#include "core/geometry.hpp"
-#include "core/region_graph.hpp"
-#include "core/stage.hpp"
+#include "core/base/geometry.hpp"
+#include "core/base/stage.hpp"
+#include "core/graph/graph.hpp"
 #include "core/text/line.hpp"
 
 #include <cstdint>
@@ -26,7 +26,7 @@ void appendPair(std::string& out, std::string_view key, int64_t x, int64_t y, in
 /// "x":…,"y":…,"w":…,"h":…
 void appendBox(std::string& out, const Box& box);
 /// "colour":"#rrggbb"
-void appendColour(std::string& out, const Colour& colour);
+void appendColour(std::string& out, const graph::Colour& colour);
 /// A comma, unless the list that `out` ends with has just been opened.
 void appendComma(std::string& out);
 

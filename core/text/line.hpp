@@ -5,7 +5,7 @@
 // functions append; a string that is cleared and used again soon stops allocating.
 #pragma once
 
-#include "core/geometry.hpp"
+#include "core/base/geometry.hpp"
 
 #include <cstdint>
 #include <optional>

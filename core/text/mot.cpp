@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/text/mot.hpp"
 
-#include "core/mapping.hpp"
+#include "core/base/mapping.hpp"
 #include "core/text/names.hpp"
 
 namespace rg::text {
 
-void appendMot(std::string& out, const Objects& objects, const FrameStamp& stamp) {
+void appendMot(std::string& out, const objects::Objects& objects, const FrameStamp& stamp) {
   const FrameMap map = mapBetween(objects.size, stamp.size);
-  for (const Object& object : objects.objects) {
-    if (!isListed(object.state)) continue;
+  for (const objects::Object& object : objects.objects) {
+    if (!objects::isListed(object.state)) continue;
     const Box box = map.box(object.box);
     appendUnsigned(out, stamp.number);
     out += ',';

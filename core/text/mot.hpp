@@ -2,7 +2,7 @@
 // MOTChallenge CSV: frame,id,left,top,width,height,confidence,-1,-1,-1.
 #pragma once
 
-#include "core/objects.hpp"
+#include "core/objects/objects.hpp"
 #include "core/text/line.hpp"
 
 #include <string>
@@ -12,6 +12,6 @@ namespace rg::text {
 /// Appends one line for each object of an isListed() state, in the order of their ids: whole
 /// pixels, the frame's first pixel is (0, 0), confidence 1. Boxes may leave the frame, as those of
 /// the benchmark's truth do.
-void appendMot(std::string& out, const Objects& objects, const FrameStamp& stamp);
+void appendMot(std::string& out, const objects::Objects& objects, const FrameStamp& stamp);
 
 }  // namespace rg::text

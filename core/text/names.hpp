@@ -2,8 +2,8 @@
 // The words that files, metas and messages use for the core's enumerations: one spelling for all.
 #pragma once
 
-#include "core/objects.hpp"
-#include "core/stage.hpp"
+#include "core/base/stage.hpp"
+#include "core/objects/objects.hpp"
 
 #include <string_view>
 
@@ -21,33 +21,33 @@ namespace rg::text {
   return "skipped";
 }
 
-[[nodiscard]] constexpr std::string_view name(ObjectState state) {
+[[nodiscard]] constexpr std::string_view name(objects::ObjectState state) {
   switch (state) {
-    case ObjectState::New:
+    case objects::ObjectState::New:
       return "new";
-    case ObjectState::Tracked:
+    case objects::ObjectState::Tracked:
       return "tracked";
-    case ObjectState::Stopped:
+    case objects::ObjectState::Stopped:
       return "stopped";
-    case ObjectState::Occluded:
+    case objects::ObjectState::Occluded:
       return "occluded";
-    case ObjectState::Lost:
+    case objects::ObjectState::Lost:
       return "lost";
   }
   return "lost";
 }
 
-[[nodiscard]] constexpr std::string_view name(EventKind kind) {
+[[nodiscard]] constexpr std::string_view name(objects::EventKind kind) {
   switch (kind) {
-    case EventKind::ObjectNew:
+    case objects::EventKind::ObjectNew:
       return "object-new";
-    case EventKind::ObjectEnd:
+    case objects::EventKind::ObjectEnd:
       return "object-end";
-    case EventKind::Merge:
+    case objects::EventKind::Merge:
       return "merge";
-    case EventKind::Split:
+    case objects::EventKind::Split:
       return "split";
-    case EventKind::SceneChanged:
+    case objects::EventKind::SceneChanged:
       return "scene-changed";
   }
   return "scene-changed";

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/text/regions.hpp"
 
-#include "core/mapping.hpp"
+#include "core/base/mapping.hpp"
 
 #include <cassert>
 
@@ -12,7 +12,7 @@ constexpr int kCentroidUnit = 256;
 constexpr int kCentroidDecimals = 2;
 constexpr int kMotionDecimals = 4;  // A sixteenth is 0.0625: nothing is lost.
 
-void appendGeometry(std::string& out, const Region& region, const FrameMap& map) {
+void appendGeometry(std::string& out, const graph::Region& region, const FrameMap& map) {
   const Box box = map.box(region.box);
   for (const int64_t value : {map.area(region.areaPx), int64_t{box.x}, int64_t{box.y},
                               int64_t{box.width}, int64_t{box.height}}) {
@@ -25,20 +25,20 @@ void appendGeometry(std::string& out, const Region& region, const FrameMap& map)
   }
 }
 
-void appendMotion(std::string& out, const RegionMotion& motion, const FrameMap& map) {
+void appendMotion(std::string& out, const motion::RegionMotion& motion, const FrameMap& map) {
   for (const int64_t value : {map.x(motion.dx), map.y(motion.dy)}) {
     out += ',';
-    appendFixed(out, value, kMotionUnit, kMotionDecimals);
+    appendFixed(out, value, motion::kMotionUnit, kMotionDecimals);
   }
   out += ',';
-  appendFixed(out, motion.reliability, kFullReliability, kMotionDecimals);
+  appendFixed(out, motion.reliability, motion::kFullReliability, kMotionDecimals);
 }
 
 }  // namespace
 
 void appendRegions(std::string& out, const RegionSources& sources, const FrameStamp& stamp) {
   assert(sources.graph);
-  const Graph& graph = *sources.graph;
+  const graph::Graph& graph = *sources.graph;
   const FrameMap map = mapBetween(graph.size, stamp.size);
   for (size_t i = 0; i < graph.regions.size(); ++i) {
     const bool hasMotion = sources.motion && i < sources.motion->regions.size();
@@ -47,7 +47,7 @@ void appendRegions(std::string& out, const RegionSources& sources, const FrameSt
     out += ',';
     appendUnsigned(out, i + 1);
     appendGeometry(out, graph.regions[i], map);
-    appendMotion(out, hasMotion ? sources.motion->regions[i] : RegionMotion{}, map);
+    appendMotion(out, hasMotion ? sources.motion->regions[i] : motion::RegionMotion{}, map);
     out += ',';
     appendUnsigned(out, hasObject ? sources.objects->regionObject[i] : 0);
     out += '\n';

@@ -2,9 +2,9 @@
 // CSV of regions: a header, then a line for each region of each frame.
 #pragma once
 
-#include "core/objects.hpp"
-#include "core/region_graph.hpp"
-#include "core/region_motion.hpp"
+#include "core/graph/graph.hpp"
+#include "core/motion/motion.hpp"
+#include "core/objects/objects.hpp"
 #include "core/text/line.hpp"
 
 #include <string>
@@ -18,9 +18,9 @@ inline constexpr std::string_view kRegionsHeader =
 /// What is known of a frame's regions. Without motion the vectors are 0 with reliability 0; without
 /// objects the last column is 0.
 struct RegionSources {
-  const Graph* graph = nullptr;  ///< Never null.
-  const Motion* motion = nullptr;
-  const Objects* objects = nullptr;
+  const graph::Graph* graph = nullptr;  ///< Never null.
+  const motion::Motion* motion = nullptr;
+  const objects::Objects* objects = nullptr;
 };
 
 /// Appends one line for each region in the order of their labels. id is the label, dx and dy are

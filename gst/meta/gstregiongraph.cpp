@@ -11,7 +11,7 @@
 namespace {
 
 using rg::Box;
-using rg::Colour;
+using rg::graph::Colour;
 
 template <class Payload, class Meta>
 const std::shared_ptr<const Payload>& sharedResultOf(Meta* meta) {
@@ -38,17 +38,17 @@ GstRegionStatus publicStatus(rg::Status status) {
   return GST_REGION_STATUS_SKIPPED;
 }
 
-GstRegionObjectState publicState(rg::ObjectState state) {
+GstRegionObjectState publicState(rg::objects::ObjectState state) {
   switch (state) {
-    case rg::ObjectState::New:
+    case rg::objects::ObjectState::New:
       return GST_REGION_OBJECT_STATE_NEW;
-    case rg::ObjectState::Tracked:
+    case rg::objects::ObjectState::Tracked:
       return GST_REGION_OBJECT_STATE_TRACKED;
-    case rg::ObjectState::Stopped:
+    case rg::objects::ObjectState::Stopped:
       return GST_REGION_OBJECT_STATE_STOPPED;
-    case rg::ObjectState::Occluded:
+    case rg::objects::ObjectState::Occluded:
       return GST_REGION_OBJECT_STATE_OCCLUDED;
-    case rg::ObjectState::Lost:
+    case rg::objects::ObjectState::Lost:
       break;
   }
   return GST_REGION_OBJECT_STATE_LOST;
@@ -104,8 +104,8 @@ gboolean mapPlane(const std::shared_ptr<const Payload>& owner, rg::ResultPlane<T
   }
 }
 
-const rg::Object* objectAt(GstRegionObjectsMeta* meta, guint index) {
-  const auto& objects = resultOf<rg::Objects>(meta).objects;
+const rg::objects::Object* objectAt(GstRegionObjectsMeta* meta, guint index) {
+  const auto& objects = resultOf<rg::objects::Objects>(meta).objects;
   return index < objects.size() ? &objects[index] : nullptr;
 }
 
@@ -114,13 +114,13 @@ const rg::Object* objectAt(GstRegionObjectsMeta* meta, guint index) {
 GstRegionStatus gst_region_foreground_meta_get_status(GstRegionForegroundMeta* meta, gint* width,
                                                       gint* height) {
   g_return_val_if_fail(meta, GST_REGION_STATUS_SKIPPED);
-  return statusAndSize(resultOf<rg::Foreground>(meta), width, height);
+  return statusAndSize(resultOf<rg::background::Foreground>(meta), width, height);
 }
 
 GstRegionSceneEvent gst_region_foreground_meta_get_scene_event(GstRegionForegroundMeta* meta,
                                                                gint* shift_x, gint* shift_y) {
   g_return_val_if_fail(meta, GST_REGION_SCENE_EVENT_NONE);
-  const rg::Scene& scene = resultOf<rg::Foreground>(meta).scene;
+  const rg::background::Scene& scene = resultOf<rg::background::Foreground>(meta).scene;
   if (shift_x) *shift_x = scene.shift.x;
   if (shift_y) *shift_y = scene.shift.y;
   return static_cast<GstRegionSceneEvent>(scene.event);  // In the same order.
@@ -128,13 +128,13 @@ GstRegionSceneEvent gst_region_foreground_meta_get_scene_event(GstRegionForegrou
 
 guint gst_region_foreground_meta_get_n_areas(GstRegionForegroundMeta* meta) {
   g_return_val_if_fail(meta, 0);
-  return static_cast<guint>(resultOf<rg::Foreground>(meta).areas.size());
+  return static_cast<guint>(resultOf<rg::background::Foreground>(meta).areas.size());
 }
 
 gboolean gst_region_foreground_meta_get_area(GstRegionForegroundMeta* meta, guint index,
                                              GstRegionBox* box) {
   g_return_val_if_fail(meta && box, FALSE);
-  const auto& areas = resultOf<rg::Foreground>(meta).areas;
+  const auto& areas = resultOf<rg::background::Foreground>(meta).areas;
   if (index >= areas.size()) return FALSE;
   *box = publicBox(areas[index]);
   return TRUE;
@@ -143,23 +143,24 @@ gboolean gst_region_foreground_meta_get_area(GstRegionForegroundMeta* meta, guin
 gboolean gst_region_foreground_meta_map(GstRegionForegroundMeta* meta, GstRegionPlane* plane,
                                         GError** error) {
   g_return_val_if_fail(meta && plane, FALSE);
-  return mapPlane(sharedResultOf<rg::Foreground>(meta), &rg::Foreground::mask, plane, error);
+  return mapPlane(sharedResultOf<rg::background::Foreground>(meta),
+                  &rg::background::Foreground::mask, plane, error);
 }
 
 GstRegionStatus gst_region_labels_meta_get_status(GstRegionLabelsMeta* meta, gint* width,
                                                   gint* height) {
   g_return_val_if_fail(meta, GST_REGION_STATUS_SKIPPED);
-  return statusAndSize(resultOf<rg::Labels>(meta), width, height);
+  return statusAndSize(resultOf<rg::segmentation::Labels>(meta), width, height);
 }
 
 GstRegionScope gst_region_labels_meta_get_scope(GstRegionLabelsMeta* meta) {
   g_return_val_if_fail(meta, GST_REGION_SCOPE_FRAME);
-  switch (resultOf<rg::Labels>(meta).scope) {
-    case rg::Scope::Foreground:
+  switch (resultOf<rg::segmentation::Labels>(meta).scope) {
+    case rg::segmentation::Scope::Foreground:
       return GST_REGION_SCOPE_FOREGROUND;
-    case rg::Scope::Areas:
+    case rg::segmentation::Scope::Areas:
       return GST_REGION_SCOPE_AREAS;
-    case rg::Scope::Frame:
+    case rg::segmentation::Scope::Frame:
       break;
   }
   return GST_REGION_SCOPE_FRAME;
@@ -167,32 +168,33 @@ GstRegionScope gst_region_labels_meta_get_scope(GstRegionLabelsMeta* meta) {
 
 guint gst_region_labels_meta_get_n_regions(GstRegionLabelsMeta* meta) {
   g_return_val_if_fail(meta, 0);
-  return resultOf<rg::Labels>(meta).count;
+  return resultOf<rg::segmentation::Labels>(meta).count;
 }
 
 gboolean gst_region_labels_meta_map(GstRegionLabelsMeta* meta, GstRegionPlane* plane,
                                     GError** error) {
   g_return_val_if_fail(meta && plane, FALSE);
-  return mapPlane(sharedResultOf<rg::Labels>(meta), &rg::Labels::ids, plane, error);
+  return mapPlane(sharedResultOf<rg::segmentation::Labels>(meta), &rg::segmentation::Labels::ids,
+                  plane, error);
 }
 
 GstRegionStatus gst_region_graph_meta_get_status(GstRegionGraphMeta* meta, gint* width,
                                                  gint* height) {
   g_return_val_if_fail(meta, GST_REGION_STATUS_SKIPPED);
-  return statusAndSize(resultOf<rg::Graph>(meta), width, height);
+  return statusAndSize(resultOf<rg::graph::Graph>(meta), width, height);
 }
 
 guint gst_region_graph_meta_get_n_regions(GstRegionGraphMeta* meta) {
   g_return_val_if_fail(meta, 0);
-  return static_cast<guint>(resultOf<rg::Graph>(meta).regions.size());
+  return static_cast<guint>(resultOf<rg::graph::Graph>(meta).regions.size());
 }
 
 gboolean gst_region_graph_meta_get_region(GstRegionGraphMeta* meta, guint index,
                                           GstRegion* region) {
   g_return_val_if_fail(meta && region, FALSE);
-  const auto& regions = resultOf<rg::Graph>(meta).regions;
+  const auto& regions = resultOf<rg::graph::Graph>(meta).regions;
   if (index >= regions.size()) return FALSE;
-  const rg::Region& from = regions[index];
+  const rg::graph::Region& from = regions[index];
   *region = {index + 1,
              from.areaPx,
              publicBox(from.box),
@@ -205,14 +207,14 @@ gboolean gst_region_graph_meta_get_region(GstRegionGraphMeta* meta, guint index,
 
 guint gst_region_graph_meta_get_n_arcs(GstRegionGraphMeta* meta) {
   g_return_val_if_fail(meta, 0);
-  return static_cast<guint>(resultOf<rg::Graph>(meta).arcs.size());
+  return static_cast<guint>(resultOf<rg::graph::Graph>(meta).arcs.size());
 }
 
 gboolean gst_region_graph_meta_get_arc(GstRegionGraphMeta* meta, guint index, GstRegionArc* arc) {
   g_return_val_if_fail(meta && arc, FALSE);
-  const auto& arcs = resultOf<rg::Graph>(meta).arcs;
+  const auto& arcs = resultOf<rg::graph::Graph>(meta).arcs;
   if (index >= arcs.size()) return FALSE;
-  const rg::Arc& from = arcs[index];
+  const rg::graph::Arc& from = arcs[index];
   const double contrast = from.borderPx ? static_cast<double>(from.contrast) / from.borderPx : 0.0;
   *arc = {from.a, from.b, from.borderPx, contrast, {}};
   return TRUE;
@@ -221,25 +223,25 @@ gboolean gst_region_graph_meta_get_arc(GstRegionGraphMeta* meta, guint index, Gs
 GstRegionStatus gst_region_motion_meta_get_status(GstRegionMotionMeta* meta, gint* width,
                                                   gint* height) {
   g_return_val_if_fail(meta, GST_REGION_STATUS_SKIPPED);
-  return statusAndSize(resultOf<rg::Motion>(meta), width, height);
+  return statusAndSize(resultOf<rg::motion::Motion>(meta), width, height);
 }
 
 guint gst_region_motion_meta_get_n_regions(GstRegionMotionMeta* meta) {
   g_return_val_if_fail(meta, 0);
-  return static_cast<guint>(resultOf<rg::Motion>(meta).regions.size());
+  return static_cast<guint>(resultOf<rg::motion::Motion>(meta).regions.size());
 }
 
 gboolean gst_region_motion_meta_get_vector(GstRegionMotionMeta* meta, guint index,
                                            GstRegionVector* vector) {
   g_return_val_if_fail(meta && vector, FALSE);
-  const auto& regions = resultOf<rg::Motion>(meta).regions;
+  const auto& regions = resultOf<rg::motion::Motion>(meta).regions;
   if (index >= regions.size()) return FALSE;
-  const rg::RegionMotion& from = regions[index];
-  constexpr double kUnit = rg::kMotionUnit;
+  const rg::motion::RegionMotion& from = regions[index];
+  constexpr double kUnit = rg::motion::kMotionUnit;
   *vector = {from.dx / kUnit,
              from.dy / kUnit,
              from.sad,
-             from.reliability / double{rg::kFullReliability},
+             from.reliability / double{rg::motion::kFullReliability},
              {}};
   return TRUE;
 }
@@ -247,20 +249,20 @@ gboolean gst_region_motion_meta_get_vector(GstRegionMotionMeta* meta, guint inde
 GstRegionStatus gst_region_objects_meta_get_status(GstRegionObjectsMeta* meta, gint* width,
                                                    gint* height) {
   g_return_val_if_fail(meta, GST_REGION_STATUS_SKIPPED);
-  return statusAndSize(resultOf<rg::Objects>(meta), width, height);
+  return statusAndSize(resultOf<rg::objects::Objects>(meta), width, height);
 }
 
 guint gst_region_objects_meta_get_n_objects(GstRegionObjectsMeta* meta) {
   g_return_val_if_fail(meta, 0);
-  return static_cast<guint>(resultOf<rg::Objects>(meta).objects.size());
+  return static_cast<guint>(resultOf<rg::objects::Objects>(meta).objects.size());
 }
 
 gboolean gst_region_objects_meta_get_object(GstRegionObjectsMeta* meta, guint index,
                                             GstRegionObject* object) {
   g_return_val_if_fail(meta && object, FALSE);
-  const rg::Object* from = objectAt(meta, index);
+  const rg::objects::Object* from = objectAt(meta, index);
   if (!from) return FALSE;
-  constexpr double kUnit = rg::kPositionUnit;
+  constexpr double kUnit = rg::objects::kPositionUnit;
   *object = {};
   object->id = from->id;
   object->state = publicState(from->state);
@@ -280,14 +282,14 @@ gboolean gst_region_objects_meta_get_object(GstRegionObjectsMeta* meta, guint in
 
 guint64 gst_region_objects_meta_get_parent(GstRegionObjectsMeta* meta, guint index, guint parent) {
   g_return_val_if_fail(meta, 0);
-  const rg::Object* object = objectAt(meta, index);
+  const rg::objects::Object* object = objectAt(meta, index);
   return object && parent < object->parents.size() ? object->parents[parent] : 0;
 }
 
 gboolean gst_region_objects_meta_get_contour_point(GstRegionObjectsMeta* meta, guint index,
                                                    guint point, gint* x, gint* y) {
   g_return_val_if_fail(meta && x && y, FALSE);
-  const rg::Object* object = objectAt(meta, index);
+  const rg::objects::Object* object = objectAt(meta, index);
   if (!object || point >= object->contour.size()) return FALSE;
   *x = object->contour[point].x;
   *y = object->contour[point].y;
@@ -296,22 +298,23 @@ gboolean gst_region_objects_meta_get_contour_point(GstRegionObjectsMeta* meta, g
 
 guint64 gst_region_objects_meta_get_region_object(GstRegionObjectsMeta* meta, guint region) {
   g_return_val_if_fail(meta, 0);
-  const auto& owners = resultOf<rg::Objects>(meta).regionObject;
+  const auto& owners = resultOf<rg::objects::Objects>(meta).regionObject;
   return region >= 1 && region <= owners.size() ? owners[region - 1] : 0;
 }
 
 void gst_region_objects_meta_get_camera_motion(GstRegionObjectsMeta* meta, gdouble* dx,
                                                gdouble* dy) {
   g_return_if_fail(meta && dx && dy);
-  constexpr double kUnit = rg::kMotionUnit;
-  *dx = resultOf<rg::Objects>(meta).cameraDx / kUnit;
-  *dy = resultOf<rg::Objects>(meta).cameraDy / kUnit;
+  constexpr double kUnit = rg::motion::kMotionUnit;
+  *dx = resultOf<rg::objects::Objects>(meta).cameraDx / kUnit;
+  *dy = resultOf<rg::objects::Objects>(meta).cameraDy / kUnit;
 }
 
 gboolean gst_region_objects_meta_map(GstRegionObjectsMeta* meta, GstRegionPlane* plane,
                                      GError** error) {
   g_return_val_if_fail(meta && plane, FALSE);
-  return mapPlane(sharedResultOf<rg::Objects>(meta), &rg::Objects::slots, plane, error);
+  return mapPlane(sharedResultOf<rg::objects::Objects>(meta), &rg::objects::Objects::slots, plane,
+                  error);
 }
 
 void gst_region_plane_unmap(GstRegionPlane* plane) {

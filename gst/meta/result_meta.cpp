@@ -47,13 +47,13 @@ const GstMetaInfo* registerInfo(GType api, const char* name) {
 }  // namespace
 }  // namespace rg
 
-#define RG_DEFINE_META(lower, Payload)                                                \
+#define RG_DEFINE_META(lower, room, Payload)                                          \
   GType gst_region_##lower##_meta_api_get_type(void) {                                \
     static const GType type = rg::registerApi("GstRegion" #Payload "MetaAPI");        \
     return type;                                                                      \
   }                                                                                   \
   const GstMetaInfo* gst_region_##lower##_meta_get_info(void) {                       \
-    static const GstMetaInfo* const info = rg::registerInfo<rg::Payload>(             \
+    static const GstMetaInfo* const info = rg::registerInfo<rg::room::Payload>(       \
         gst_region_##lower##_meta_api_get_type(), "GstRegion" #Payload "Meta");       \
     return info;                                                                      \
   }                                                                                   \
@@ -63,8 +63,8 @@ const GstMetaInfo* registerInfo(GType api, const char* name) {
         gst_buffer_get_meta(buffer, gst_region_##lower##_meta_api_get_type()));       \
   }
 
-RG_DEFINE_META(foreground, Foreground)
-RG_DEFINE_META(labels, Labels)
-RG_DEFINE_META(graph, Graph)
-RG_DEFINE_META(motion, Motion)
-RG_DEFINE_META(objects, Objects)
+RG_DEFINE_META(foreground, background, Foreground)
+RG_DEFINE_META(labels, segmentation, Labels)
+RG_DEFINE_META(graph, graph, Graph)
+RG_DEFINE_META(motion, motion, Motion)
+RG_DEFINE_META(objects, objects, Objects)

@@ -2,7 +2,7 @@
 // How a stage's result travels on a buffer: shared by the elements and the library that reads it.
 #pragma once
 
-#include "core/objects.hpp"
+#include "core/objects/objects.hpp"
 #include "gst/meta/gstregiongraph.h"
 
 #include <gst/gst.h>
@@ -32,23 +32,23 @@ struct ResultMeta {
 template <class Payload>
 const GstMetaInfo* metaInfo();
 template <>
-inline const GstMetaInfo* metaInfo<Foreground>() {
+inline const GstMetaInfo* metaInfo<background::Foreground>() {
   return gst_region_foreground_meta_get_info();
 }
 template <>
-inline const GstMetaInfo* metaInfo<Labels>() {
+inline const GstMetaInfo* metaInfo<segmentation::Labels>() {
   return gst_region_labels_meta_get_info();
 }
 template <>
-inline const GstMetaInfo* metaInfo<Graph>() {
+inline const GstMetaInfo* metaInfo<graph::Graph>() {
   return gst_region_graph_meta_get_info();
 }
 template <>
-inline const GstMetaInfo* metaInfo<Motion>() {
+inline const GstMetaInfo* metaInfo<motion::Motion>() {
   return gst_region_motion_meta_get_info();
 }
 template <>
-inline const GstMetaInfo* metaInfo<Objects>() {
+inline const GstMetaInfo* metaInfo<objects::Objects>() {
   return gst_region_objects_meta_get_info();
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "gst/overlay/blackout.hpp"
 
-#include "core/mapping.hpp"
-#include "core/text/names.hpp"
+#include "core/base/mapping.hpp"
+#include "core/text/text.hpp"
 #include "gst/support/foreign_enum.hpp"
 
 #include <algorithm>
@@ -62,14 +62,15 @@ void blackenChroma(GstVideoFrame* frame, int component, const Image<uint8_t>& ke
 
 }  // namespace
 
-void markObjects(const Objects& objects, Image<uint8_t>& keep) {
+void markObjects(const objects::Objects& objects, Image<uint8_t>& keep) {
   mark(objects.slots, keep, [&](uint16_t slot) {
-    return slot > 0 && slot <= objects.objects.size() && isListed(objects.objects[slot - 1u].state);
+    return slot > 0 && slot <= objects.objects.size() &&
+           objects::isListed(objects.objects[slot - 1u].state);
   });
 }
 
-void markForeground(const Foreground& foreground, Image<uint8_t>& keep) {
-  mark(foreground.mask, keep, [](uint8_t value) { return value == kForegroundPixel; });
+void markForeground(const background::Foreground& foreground, Image<uint8_t>& keep) {
+  mark(foreground.mask, keep, [](uint8_t value) { return value == background::kForegroundPixel; });
 }
 
 void blacken(GstVideoFrame* frame, const Image<uint8_t>& keep) {

@@ -20,7 +20,7 @@ constexpr double kCapitalPx = 21;  // Height of its capitals at scale 1.
 
 /// Anti-aliased drawing mixes all four channels alike, which is right when the colours are
 /// multiplied by alpha.
-cv::Scalar ink(const Colour& colour, int alpha = kOpaque) {
+cv::Scalar ink(const graph::Colour& colour, int alpha = kOpaque) {
   const double share = static_cast<double>(alpha) / kOpaque;
   return {colour.blue * share, colour.green * share, colour.red * share,
           static_cast<double>(alpha)};
@@ -30,7 +30,7 @@ cv::Scalar rim() {
   return ink({0, 0, 0}, kRimAlpha);
 }
 
-bool isLight(const Colour& colour) {
+bool isLight(const graph::Colour& colour) {
   return 77 * colour.red + 150 * colour.green + 29 * colour.blue > 256 * 110;
 }
 
@@ -59,12 +59,12 @@ Canvas::Canvas(ImageView<uint32_t> pixels, Point origin, const Style& style)
   pixels_.setTo(cv::Scalar::all(0));
 }
 
-void Canvas::line(Point from, Point to, const Colour& colour) {
+void Canvas::line(Point from, Point to, const graph::Colour& colour) {
   if (style_.rimPx > 0) cv::line(pixels_, at(from), at(to), rim(), rimmedPx(), cv::LINE_AA);
   cv::line(pixels_, at(from), at(to), ink(colour), style_.linePx, cv::LINE_AA);
 }
 
-void Canvas::box(const Box& whole, const Colour& colour, Stroke stroke) {
+void Canvas::box(const Box& whole, const graph::Colour& colour, Stroke stroke) {
   // Edges far outside cost nothing: they are drawn just outside.
   constexpr int kOutsidePx = 256;
   const Box visible{origin_.x, origin_.y, pixels_.cols, pixels_.rows};
@@ -102,12 +102,12 @@ void Canvas::border(const Box& outer, int thickness, const cv::Scalar& ink) {
                     cv::FILLED);
 }
 
-void Canvas::cornerMark(Point corner, Point towards, const Colour& colour) {
+void Canvas::cornerMark(Point corner, Point towards, const graph::Colour& colour) {
   const auto part = [](int from, int to) { return from + (to - from) / 4; };
   line(corner, {part(corner.x, towards.x), part(corner.y, towards.y)}, colour);
 }
 
-void Canvas::dashes(Point from, Point to, const Colour& colour) {
+void Canvas::dashes(Point from, Point to, const graph::Colour& colour) {
   const int length = std::max(std::abs(to.x - from.x), std::abs(to.y - from.y));
   const int dash = 2 * (style_.spacePx + style_.linePx);
   const auto along = [&](int i) {
@@ -118,7 +118,7 @@ void Canvas::dashes(Point from, Point to, const Colour& colour) {
     line(along(i), along(std::min(i + dash, length)), colour);
 }
 
-void Canvas::path(std::span<const Point> points, const Colour& colour, Ends ends) {
+void Canvas::path(std::span<const Point> points, const graph::Colour& colour, Ends ends) {
   points_.clear();
   for (const Point& point : points) points_.push_back(at(point));
   const bool isClosed = ends == Ends::Closed;
@@ -126,7 +126,7 @@ void Canvas::path(std::span<const Point> points, const Colour& colour, Ends ends
   cv::polylines(pixels_, points_, isClosed, ink(colour), style_.linePx, cv::LINE_AA);
 }
 
-void Canvas::arrow(Point from, Point to, const Colour& colour) {
+void Canvas::arrow(Point from, Point to, const graph::Colour& colour) {
   const double length = std::hypot(to.x - from.x, to.y - from.y);
   const double tip = std::clamp(4.0 * style_.linePx / std::max(length, 1.0), 0.15, 0.5);
   if (style_.rimPx > 0)
@@ -134,7 +134,8 @@ void Canvas::arrow(Point from, Point to, const Colour& colour) {
   cv::arrowedLine(pixels_, at(from), at(to), ink(colour), style_.linePx, cv::LINE_AA, 0, tip);
 }
 
-void Canvas::disc(Point centre, int radius, const Colour& colour, const Colour& ring) {
+void Canvas::disc(Point centre, int radius, const graph::Colour& colour,
+                  const graph::Colour& ring) {
   const int ringPx = std::max(1, style_.linePx / 2), outer = radius + ringPx;
   cv::circle(pixels_, at(centre), outer + std::max(1, style_.rimPx), rim(), cv::FILLED,
              cv::LINE_AA);
@@ -142,12 +143,13 @@ void Canvas::disc(Point centre, int radius, const Colour& colour, const Colour& 
   cv::circle(pixels_, at(centre), radius, ink(colour), cv::FILLED, cv::LINE_AA);
 }
 
-void Canvas::label(Point corner, const std::string& text, const Colour& colour) {
+void Canvas::label(Point corner, const std::string& text, const graph::Colour& colour) {
   const Size ground = labelSize(text, style_);
   const Font font = fontOf(style_);
   cv::rectangle(pixels_, cv::Rect(at(corner), cv::Size(ground.width, ground.height)), ink(colour),
                 cv::FILLED);
-  const Colour letters = isLight(colour) ? Colour{0, 0, 0} : Colour{255, 255, 255};
+  const graph::Colour letters =
+      isLight(colour) ? graph::Colour{0, 0, 0} : graph::Colour{255, 255, 255};
   const Point baseline{corner.x + style_.spacePx, corner.y + ground.height - style_.spacePx - 1};
   cv::putText(pixels_, text, at(baseline), kFont, font.scale, ink(letters), font.thickness,
               cv::LINE_AA);

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "gst/overlay/figure.hpp"
 
-#include "core/text/line.hpp"
-#include "core/text/names.hpp"
+#include "core/text/text.hpp"
 
 #include <algorithm>
 #include <array>
@@ -13,24 +12,24 @@ namespace {
 
 /// A position in 1/16 px of the result, in pixels of the frame.
 Point fromFine(int64_t x, int64_t y, const FrameMap& map) {
-  return {static_cast<int>(divideRounded(map.x(x), kPositionUnit)),
-          static_cast<int>(divideRounded(map.y(y), kPositionUnit))};
+  return {static_cast<int>(divideRounded(map.x(x), objects::kPositionUnit)),
+          static_cast<int>(divideRounded(map.y(y), objects::kPositionUnit))};
 }
 
-Stroke strokeOf(ObjectState state) {
+Stroke strokeOf(objects::ObjectState state) {
   switch (state) {
-    case ObjectState::Occluded:
+    case objects::ObjectState::Occluded:
       return Stroke::Dashed;
-    case ObjectState::Stopped:
+    case objects::ObjectState::Stopped:
       return Stroke::Corners;
     default:
       return Stroke::Solid;
   }
 }
 
-void writeLabel(const Object& object, const Style& style, std::string& label) {
+void writeLabel(const objects::Object& object, const Style& style, std::string& label) {
   text::appendUnsigned(label, object.id);
-  if (object.state == ObjectState::Tracked || !style.hasWords) return;
+  if (object.state == objects::ObjectState::Tracked || !style.hasWords) return;
   label += ' ';
   label += text::name(object.state);
 }
@@ -95,7 +94,8 @@ bool hasArrow(const Figure& figure, const Layout& layout) {
 
 }  // namespace
 
-void layOut(const Object& object, const Layout& layout, const Trails& trails, Figure& figure) {
+void layOut(const objects::Object& object, const Layout& layout, const Trails& trails,
+            Figure& figure) {
   const FrameMap& map = layout.map;
   figure.colour = colourOf(object.id);
   figure.stroke = strokeOf(object.state);
@@ -103,7 +103,7 @@ void layOut(const Object& object, const Layout& layout, const Trails& trails, Fi
   figure.centre = fromFine(object.centroidX, object.centroidY, map);
   figure.tip = figure.centre;
   // What has stopped goes nowhere, whatever its outline does.
-  if (object.hasSpeed && object.state != ObjectState::Stopped)
+  if (object.hasSpeed && object.state != objects::ObjectState::Stopped)
     figure.tip = fromFine(int64_t{object.centroidX} + object.speedX / 2,
                           int64_t{object.centroidY} + object.speedY / 2, map);
   figure.text.clear();

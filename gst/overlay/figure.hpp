@@ -2,8 +2,8 @@
 // An object as it is to be drawn: everything in pixels of the frame.
 #pragma once
 
-#include "core/mapping.hpp"
-#include "core/objects.hpp"
+#include "core/base/mapping.hpp"
+#include "core/objects/objects.hpp"
 #include "gst/overlay/canvas.hpp"
 #include "gst/overlay/style.hpp"
 #include "gst/overlay/trails.hpp"
@@ -26,7 +26,7 @@ struct Parts {
 };
 
 struct Figure {
-  Colour colour;
+  graph::Colour colour;
   Stroke stroke = Stroke::Solid;
   Box box;
   Point centre;
@@ -45,7 +45,8 @@ struct Layout {
 };
 
 /// Lays an object out; `figure` keeps its memory. What the parts leave out is left empty.
-void layOut(const Object& object, const Layout& layout, const Trails& trails, Figure& figure);
+void layOut(const objects::Object& object, const Layout& layout, const Trails& trails,
+            Figure& figure);
 
 /// Finds a place in the frame for each label: clear of those before it and, if there is such a
 /// place, of all boxes.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "gst/overlay/graph_view.hpp"
 
-#include "core/mapping.hpp"
+#include "core/base/mapping.hpp"
 #include "gst/overlay/painter.hpp"
 
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace rg::overlay {
 namespace {
 
 constexpr int kCentroidUnit = 256;
-constexpr Colour kBetweenObjects{225, 225, 225};
+constexpr graph::Colour kBetweenObjects{225, 225, 225};
 
 bool showsGraph(const Scene& scene, const Views& views) {
   return views.graph && scene.graph && !scene.graph->regions.empty();
@@ -21,7 +21,7 @@ bool showsRegionMotion(const Scene& scene, const Views& views) {
          !scene.motion->regions.empty();
 }
 
-Point centreOf(const Region& region, const FrameMap& map) {
+Point centreOf(const graph::Region& region, const FrameMap& map) {
   return {static_cast<int>(divideRounded(map.x(region.centroidX), kCentroidUnit)),
           static_cast<int>(divideRounded(map.y(region.centroidY), kCentroidUnit))};
 }
@@ -34,7 +34,7 @@ uint64_t objectOf(uint16_t label, const Scene& scene) {
 
 void drawArcs(const Scene& scene, const FrameMap& map, Canvas& canvas) {
   const auto& regions = scene.graph->regions;
-  for (const Arc& arc : scene.graph->arcs) {
+  for (const graph::Arc& arc : scene.graph->arcs) {
     if (arc.a == 0 || arc.b == 0 || arc.a > regions.size() || arc.b > regions.size()) continue;
     const uint64_t object = objectOf(arc.a, scene);
     const bool isWithin = object != 0 && object == objectOf(arc.b, scene);
@@ -46,7 +46,7 @@ void drawArcs(const Scene& scene, const FrameMap& map, Canvas& canvas) {
 void drawNodes(const Scene& scene, const FrameMap& map, Canvas& canvas) {
   const int least = canvas.style().linePx + 1;
   for (size_t i = 0; i < scene.graph->regions.size(); ++i) {
-    const Region& region = scene.graph->regions[i];
+    const graph::Region& region = scene.graph->regions[i];
     const auto side = static_cast<int>(integerSqrt(static_cast<uint64_t>(map.area(region.areaPx))));
     const uint64_t object = objectOf(static_cast<uint16_t>(i + 1), scene);
     canvas.disc(centreOf(region, map), std::clamp(side / 8, least, 3 * least), region.colour,
@@ -58,13 +58,13 @@ void drawRegionMotion(const Scene& scene, const FrameMap& map, Canvas& canvas) {
   const size_t count = std::min(scene.graph->regions.size(), scene.motion->regions.size());
   const double frames = scene.framesPerSecond / 2;
   for (size_t i = 0; i < count; ++i) {
-    const RegionMotion& motion = scene.motion->regions[i];
+    const motion::RegionMotion& motion = scene.motion->regions[i];
     if (motion.reliability == 0 || (motion.dx == 0 && motion.dy == 0)) continue;
     const Point from = centreOf(scene.graph->regions[i], map);
     const auto along = [&](int64_t shift) {
       constexpr double kFarPx = 1 << 16;  // A framerate of 90000/1 says nothing of the frames.
       return static_cast<int>(
-          std::clamp(static_cast<double>(shift) * frames / kMotionUnit, -kFarPx, kFarPx));
+          std::clamp(static_cast<double>(shift) * frames / motion::kMotionUnit, -kFarPx, kFarPx));
     };
     canvas.arrow(from, {from.x + along(map.x(motion.dx)), from.y + along(map.y(motion.dy))},
                  colourOf(i + 1));

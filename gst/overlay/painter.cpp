@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "gst/overlay/painter.hpp"
 
-#include "core/text/names.hpp"
+#include "core/text/text.hpp"
 #include "gst/overlay/graph_view.hpp"
 
 #include <gst/video/gstvideometa.h>
@@ -41,7 +41,7 @@ void Painter::forget() {
   pool_.drop();
 }
 
-void Painter::follow(const Objects& objects, int64_t nowNs, double trailLengthS) {
+void Painter::follow(const objects::Objects& objects, int64_t nowNs, double trailLengthS) {
   trails_.advance(objects, nowNs, static_cast<int64_t>(trailLengthS * GST_SECOND));
 }
 
@@ -63,8 +63,8 @@ Layout Painter::layOutAll(const Scene& scene, const Views& views) {
   figureCount_ = 0;
   extents_.clear();
   if (!scene.objects || !views.any()) return layout;
-  for (const Object& object : scene.objects->objects) {
-    if (!isListed(object.state)) continue;
+  for (const objects::Object& object : scene.objects->objects) {
+    if (!objects::isListed(object.state)) continue;
     if (figureCount_ == figures_.size()) figures_.emplace_back();
     Figure& figure = figures_[figureCount_++];
     layOut(object, layout, trails_, figure);

@@ -2,8 +2,8 @@
 // From results to a GstVideoOverlayComposition.
 #pragma once
 
-#include "core/objects.hpp"
-#include "core/pool.hpp"
+#include "core/base/memory/pool.hpp"
+#include "core/objects/objects.hpp"
 #include "gst/overlay/figure.hpp"
 
 #include <gst/video/video-overlay-composition.h>
@@ -26,9 +26,9 @@ struct Views : Parts {
 struct Scene {
   Size frame;
   double framesPerSecond = 25;
-  const Objects* objects = nullptr;
-  const Graph* graph = nullptr;
-  const Motion* motion = nullptr;
+  const objects::Objects* objects = nullptr;
+  const graph::Graph* graph = nullptr;
+  const motion::Motion* motion = nullptr;
 };
 
 struct Unref {
@@ -44,7 +44,7 @@ using CompositionPtr = std::unique_ptr<GstVideoOverlayComposition, Unref>;
 class Painter {
  public:
   /// The objects of a frame that has passed, drawn or not: trails go on.
-  void follow(const Objects& objects, int64_t nowNs, double trailLengthS);
+  void follow(const objects::Objects& objects, int64_t nowNs, double trailLengthS);
   /// Also drops a drawing that was begun and the memory for drawings.
   void forget();
 

@@ -2,8 +2,8 @@
 // Sizes and colours of what is drawn, so that it can be read on any frame.
 #pragma once
 
-#include "core/geometry.hpp"
-#include "core/region_graph.hpp"
+#include "core/base/geometry.hpp"
+#include "core/graph/graph.hpp"
 
 #include <algorithm>
 #include <array>
@@ -36,19 +36,19 @@ struct Style {
 }
 
 /// A colour of its own for each of twelve objects in turn; neighbours in number differ most.
-[[nodiscard]] inline Colour colourOf(uint64_t id) {
-  constexpr std::array<Colour, 12> kColours{{{255, 92, 80},
-                                             {64, 200, 255},
-                                             {255, 214, 40},
-                                             {190, 120, 255},
-                                             {90, 225, 90},
-                                             {255, 130, 215},
-                                             {60, 235, 205},
-                                             {255, 160, 50},
-                                             {130, 160, 255},
-                                             {205, 235, 70},
-                                             {235, 85, 150},
-                                             {175, 205, 215}}};
+[[nodiscard]] inline graph::Colour colourOf(uint64_t id) {
+  constexpr std::array<graph::Colour, 12> kColours{{{255, 92, 80},
+                                                    {64, 200, 255},
+                                                    {255, 214, 40},
+                                                    {190, 120, 255},
+                                                    {90, 225, 90},
+                                                    {255, 130, 215},
+                                                    {60, 235, 205},
+                                                    {255, 160, 50},
+                                                    {130, 160, 255},
+                                                    {205, 235, 70},
+                                                    {235, 85, 150},
+                                                    {175, 205, 215}}};
   return kColours[id % kColours.size()];
 }
 

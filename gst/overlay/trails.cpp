@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "gst/overlay/trails.hpp"
 
-#include "core/text/names.hpp"
-#include "core/time.hpp"
+#include "core/base/time.hpp"
+#include "core/text/text.hpp"
 
 namespace rg::overlay {
 
@@ -32,10 +32,10 @@ void Trails::append(Trail& trail, const Sample& sample) {
   ++trail.count;
 }
 
-void Trails::advance(const Objects& objects, int64_t nowNs, int64_t lengthNs) {
+void Trails::advance(const objects::Objects& objects, int64_t nowNs, int64_t lengthNs) {
   moveAll({objects.cameraDx, objects.cameraDy});
-  for (const Object& object : objects.objects) {
-    if (!isListed(object.state)) continue;
+  for (const objects::Object& object : objects.objects) {
+    if (!objects::isListed(object.state)) continue;
     Trail& trail = trails_[object.id];
     trail.seenNs = nowNs;
     const int64_t stepNs = lengthNs / static_cast<int64_t>(kCapacity - 1);
@@ -48,7 +48,7 @@ void Trails::advance(const Objects& objects, int64_t nowNs, int64_t lengthNs) {
   std::erase_if(trails_, [&](const auto& entry) { return entry.second.seenNs < oldestNs; });
 }
 
-void Trails::copy(const Object& object, std::vector<Point>& out) const {
+void Trails::copy(const objects::Object& object, std::vector<Point>& out) const {
   out.clear();
   if (const auto found = trails_.find(object.id); found != trails_.end()) {
     const Trail& trail = found->second;

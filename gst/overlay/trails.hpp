@@ -2,7 +2,7 @@
 // The ways that objects came.
 #pragma once
 
-#include "core/objects.hpp"
+#include "core/objects/objects.hpp"
 
 #include <array>
 #include <cstdint>
@@ -19,11 +19,11 @@ class Trails {
 
   /// Adds the objects of one frame. Under a moving camera the trails move with the scene.
   /// lengthNs: what is older is forgotten.
-  void advance(const Objects& objects, int64_t nowNs, int64_t lengthNs);
+  void advance(const objects::Objects& objects, int64_t nowNs, int64_t lengthNs);
 
   /// Writes the object's way, oldest point first, its present place last, in 1/16 px of the frame
   /// that the result was made for.
-  void copy(const Object& object, std::vector<Point>& out) const;
+  void copy(const objects::Object& object, std::vector<Point>& out) const;
 
  private:
   static constexpr size_t kCapacity = 48;

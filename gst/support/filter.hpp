@@ -3,7 +3,7 @@
 // exceptions into errors on the bus, and tells it about frames, times and resets.
 #pragma once
 
-#include "core/stage.hpp"
+#include "core/base/stage.hpp"
 #include "gst/support/properties.hpp"
 #include "gst/support/stream_clock.hpp"
 

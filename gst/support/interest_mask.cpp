@@ -90,7 +90,7 @@ Result<bool> InterestMask::follow(const InterestSettings& settings) {
 }
 
 Result<bool> InterestMask::read(const InterestSettings& settings) {
-  auto polygons = parsePolygons(settings.areasOfInterest);
+  auto polygons = background::parsePolygons(settings.areasOfInterest);
   if (!polygons) return Error{"areas-of-interest: " + polygons.error().message};
   if (settings.mask != path_) {
     Image<uint8_t> picture;
@@ -108,7 +108,7 @@ std::shared_ptr<const Image<uint8_t>> InterestMask::fit(Size frame) {
   if (polygons_.empty() && picture_.size().isEmpty()) return nullptr;
   if (fitted_ && fitted_->size() == frame) return fitted_;
   auto interest = std::make_shared<Image<uint8_t>>(frame);
-  drawInterest(polygons_, picture_, *interest);
+  background::drawInterest(polygons_, picture_, *interest);
   fitted_ = std::move(interest);
   return fitted_;
 }

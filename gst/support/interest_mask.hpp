@@ -2,9 +2,9 @@
 // Where a user wants an element to look, kept up with its properties and the frame's size.
 #pragma once
 
-#include "core/image.hpp"
-#include "core/interest.hpp"
-#include "core/result.hpp"
+#include "core/background/background.hpp"
+#include "core/base/memory/image.hpp"
+#include "core/base/result.hpp"
 
 #include <memory>
 #include <string>
@@ -12,8 +12,8 @@
 
 namespace rg {
 
-/// What the user says: the path of a PNG, and polygons as text (core/interest.hpp). Both may be
-/// empty.
+/// What the user says: the path of a PNG, and polygons as text (core/background/interest.hpp). Both
+/// may be empty.
 struct InterestSettings {
   std::string mask;
   std::string areasOfInterest;
@@ -35,7 +35,7 @@ class InterestMask {
   InterestSettings settings_;  ///< As last asked for.
   std::string path_;           ///< Of the picture.
   Image<uint8_t> picture_;
-  std::vector<InterestPolygon> polygons_;
+  std::vector<background::InterestPolygon> polygons_;
   std::shared_ptr<const Image<uint8_t>> fitted_;
 };
 

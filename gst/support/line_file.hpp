@@ -2,7 +2,7 @@
 // The file that an element writes lines to.
 #pragma once
 
-#include "core/result.hpp"
+#include "core/base/result.hpp"
 
 #include <functional>
 #include <optional>

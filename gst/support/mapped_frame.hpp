@@ -2,8 +2,8 @@
 // The pixels of a buffer, mapped for reading and checked.
 #pragma once
 
-#include "core/frame.hpp"
-#include "core/result.hpp"
+#include "core/base/frame.hpp"
+#include "core/base/result.hpp"
 
 #include <gst/video/video.h>
 

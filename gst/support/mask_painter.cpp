@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "gst/support/mask_painter.hpp"
 
-#include "core/mapping.hpp"
+#include "core/base/mapping.hpp"
 #include "gst/meta/result_meta.hpp"
 
 #include <cstring>
@@ -52,23 +52,25 @@ void paint(const ResultPlane<Value>& plane, GstVideoFrame* to, Shade shade) {
   }
 }
 
-void paintForeground(const Foreground& foreground, GstVideoFrame* to) {
-  paint(foreground.mask, to,
-        [](uint8_t value) -> uint8_t { return value == kForegroundPixel ? kWhite : 0; });
+void paintForeground(const background::Foreground& foreground, GstVideoFrame* to) {
+  paint(foreground.mask, to, [](uint8_t value) -> uint8_t {
+    return value == background::kForegroundPixel ? kWhite : 0;
+  });
 }
 
-void paintLabels(const Labels& labels, GstVideoFrame* to) {
+void paintLabels(const segmentation::Labels& labels, GstVideoFrame* to) {
   if (GST_VIDEO_FRAME_FORMAT(to) == GST_VIDEO_FORMAT_GRAY16_BE)
     paint(labels.ids, to, [](uint16_t label) { return GUINT16_TO_BE(label); });
   else
     paint(labels.ids, to, [](uint16_t label) { return GUINT16_TO_LE(label); });
 }
 
-void paintObjects(const Objects& objects, GstVideoFrame* to) {
+void paintObjects(const objects::Objects& objects, GstVideoFrame* to) {
   paint(objects.slots, to, [&](uint16_t slot) -> uint8_t {
     if (slot == 0 || slot > objects.objects.size()) return 0;
-    const ObjectState state = objects.objects[slot - 1].state;
-    return state == ObjectState::Tracked || state == ObjectState::Stopped ? kWhite : 0;
+    const objects::ObjectState state = objects.objects[slot - 1].state;
+    return state == objects::ObjectState::Tracked || state == objects::ObjectState::Stopped ? kWhite
+                                                                                            : 0;
   });
 }
 
@@ -85,8 +87,8 @@ bool paintResult(GstBuffer* from, GstVideoFrame* to, Paint paintOne) {
 /// A frame without a decision is one without a result, unless it was skipped.
 bool paintHue(GstBuffer* from, GstVideoFrame* to) {
   bool isDecided = true;
-  const bool wasThere =
-      paintResult<Labels>(from, to, [&](const Labels& labels, GstVideoFrame* out) {
+  const bool wasThere = paintResult<segmentation::Labels>(
+      from, to, [&](const segmentation::Labels& labels, GstVideoFrame* out) {
         isDecided = !labels.hue.pixelSize().isEmpty();
         paint(labels.hue, out, [](uint8_t value) { return value; });
       });
@@ -129,15 +131,15 @@ bool paintMask(MaskSource source, GstBuffer* from, GstVideoFrame* to) {
   clearPadding(to);
   switch (source) {
     case MaskSource::Foreground:
-      return paintResult<Foreground>(from, to, paintForeground);
+      return paintResult<background::Foreground>(from, to, paintForeground);
     case MaskSource::Labels:
-      return paintResult<Labels>(from, to, paintLabels);
+      return paintResult<segmentation::Labels>(from, to, paintLabels);
     case MaskSource::Hue:
       return paintHue(from, to);
     case MaskSource::Objects:
       break;
   }
-  return paintResult<Objects>(from, to, paintObjects);
+  return paintResult<objects::Objects>(from, to, paintObjects);
 }
 
 }  // namespace rg

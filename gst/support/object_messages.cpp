@@ -10,30 +10,30 @@ namespace rg {
 namespace {
 
 /// The background counts as moving from half a pixel a frame, and as still again below a quarter.
-constexpr int kMovingFrom = kMotionUnit / 2;
-constexpr int kStillBelow = kMotionUnit / 4;
+constexpr int kMovingFrom = motion::kMotionUnit / 2;
+constexpr int kStillBelow = motion::kMotionUnit / 4;
 
 }  // namespace
 
-void ObjectMessages::tell(const Objects& objects, GstClockTime pts) {
+void ObjectMessages::tell(const objects::Objects& objects, GstClockTime pts) {
   pts_ = pts;
-  for (const Event& event : objects.events) {
+  for (const objects::Event& event : objects.events) {
     switch (event.kind) {
-      case EventKind::ObjectNew:
+      case objects::EventKind::ObjectNew:
         for (const uint64_t id : event.ids)
           if (alive_.insert(id).second) tellObject("regiongraph-object-new", id);
         break;
-      case EventKind::ObjectEnd:
+      case objects::EventKind::ObjectEnd:
         for (const uint64_t id : event.ids)
           if (alive_.erase(id) != 0) tellObject("regiongraph-object-end", id);
         break;
-      case EventKind::Merge:
+      case objects::EventKind::Merge:
         tellGroup("regiongraph-merge", event);
         break;
-      case EventKind::Split:
+      case objects::EventKind::Split:
         tellGroup("regiongraph-split", event);
         break;
-      case EventKind::SceneChanged:
+      case objects::EventKind::SceneChanged:
         post("regiongraph-scene-changed", gst_structure_new_empty("regiongraph-scene-changed"));
         break;
     }
@@ -55,7 +55,7 @@ void ObjectMessages::tellObject(const char* name, uint64_t id) const {
   post(name, gst_structure_new(name, "id", G_TYPE_UINT64, static_cast<guint64>(id), nullptr));
 }
 
-void ObjectMessages::tellGroup(const char* name, const Event& event) const {
+void ObjectMessages::tellGroup(const char* name, const objects::Event& event) const {
   GValue ids = G_VALUE_INIT;
   g_value_init(&ids, GST_TYPE_ARRAY);
   for (const uint64_t id : event.ids) {
@@ -69,12 +69,12 @@ void ObjectMessages::tellGroup(const char* name, const Event& event) const {
   post(name, fields);
 }
 
-void ObjectMessages::tellCamera(const Objects& objects) {
+void ObjectMessages::tellCamera(const objects::Objects& objects) {
   const int speed = std::max(std::abs(objects.cameraDx), std::abs(objects.cameraDy));
   const bool isMoving = isCameraMoving_ ? speed >= kStillBelow : speed >= kMovingFrom;
   if (isMoving == isCameraMoving_) return;
   isCameraMoving_ = isMoving;
-  constexpr double kUnit = kMotionUnit;
+  constexpr double kUnit = motion::kMotionUnit;
   constexpr const char* kName = "regiongraph-background-motion";
   post(kName, gst_structure_new(kName, "moving", G_TYPE_BOOLEAN, isMoving, "dx", G_TYPE_DOUBLE,
                                 objects.cameraDx / kUnit, "dy", G_TYPE_DOUBLE,

@@ -2,7 +2,7 @@
 // What happens to objects, told on the bus.
 #pragma once
 
-#include "core/objects.hpp"
+#include "core/objects/objects.hpp"
 
 #include <gst/base/gstbasetransform.h>
 
@@ -17,15 +17,15 @@ class ObjectMessages {
   explicit ObjectMessages(GstBaseTransform* element) : element_(element) {}
 
   /// Tells the events of one frame.
-  void tell(const Objects& objects, GstClockTime pts);
+  void tell(const objects::Objects& objects, GstClockTime pts);
   /// Tells the end of every object that was told to exist, as of the last frame.
   void endAll();
 
  private:
   void post(const char* name, GstStructure* fields) const;
   void tellObject(const char* name, uint64_t id) const;
-  void tellGroup(const char* name, const Event& event) const;
-  void tellCamera(const Objects& objects);
+  void tellGroup(const char* name, const objects::Event& event) const;
+  void tellCamera(const objects::Objects& objects);
 
   GstBaseTransform* const element_;
   GstClockTime pts_ = GST_CLOCK_TIME_NONE;

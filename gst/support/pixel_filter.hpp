@@ -2,9 +2,9 @@
 // What the stage elements share that look at pixels.
 #pragma once
 
-#include "core/picture.hpp"
-#include "core/pool.hpp"
-#include "core/result.hpp"
+#include "core/base/memory/pool.hpp"
+#include "core/base/picture.hpp"
+#include "core/base/result.hpp"
 #include "gst/support/mapped_frame.hpp"
 #include "gst/support/stage_filter.hpp"
 

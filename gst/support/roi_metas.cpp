@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "gst/support/roi_metas.hpp"
 
-#include "core/mapping.hpp"
+#include "core/base/mapping.hpp"
 
 #include <gst/video/gstvideometa.h>
 
 namespace rg {
 namespace {
 
-bool isPresent(ObjectState state) {
-  return state == ObjectState::Tracked || state == ObjectState::Stopped ||
-         state == ObjectState::Occluded;
+bool isPresent(objects::ObjectState state) {
+  return state == objects::ObjectState::Tracked || state == objects::ObjectState::Stopped ||
+         state == objects::ObjectState::Occluded;
 }
 
-void addParams(GstVideoRegionOfInterestMeta* roi, const Object& object, const Box& box, Size size) {
+void addParams(GstVideoRegionOfInterestMeta* roi, const objects::Object& object, const Box& box,
+               Size size) {
   const double width = size.width, height = size.height;
   gst_video_region_of_interest_meta_add_param(
       roi,
@@ -27,10 +28,10 @@ void addParams(GstVideoRegionOfInterestMeta* roi, const Object& object, const Bo
 
 }  // namespace
 
-void addRoiMetas(GstBuffer* buffer, const GstVideoInfo& info, const Objects& objects) {
+void addRoiMetas(GstBuffer* buffer, const GstVideoInfo& info, const objects::Objects& objects) {
   const Size frame{GST_VIDEO_INFO_WIDTH(&info), GST_VIDEO_INFO_HEIGHT(&info)};
   const FrameMap map = mapBetween(objects.size, frame);
-  for (const Object& object : objects.objects) {
+  for (const objects::Object& object : objects.objects) {
     const Box box = intersect(map.box(object.box), boundsOf(frame));
     if (!isPresent(object.state) || box.isEmpty()) continue;
     auto* roi = gst_buffer_add_video_region_of_interest_meta(

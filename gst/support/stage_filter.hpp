@@ -3,11 +3,11 @@
 // attaching their own.
 #pragma once
 
-#include "core/executor.hpp"
-#include "core/picture.hpp"
-#include "core/pool.hpp"
-#include "core/result_packer.hpp"
-#include "core/stage.hpp"
+#include "core/base/memory/executor.hpp"
+#include "core/base/memory/pool.hpp"
+#include "core/base/picture.hpp"
+#include "core/base/stage.hpp"
+#include "core/objects/objects.hpp"
 #include "gst/meta/result_meta.hpp"
 #include "gst/support/filter.hpp"
 
@@ -57,7 +57,7 @@ class StageFilter : public Filter {
   template <class Payload>
   Upstream<Payload> requireUnpacked(const FilterFrame& frame, const char* producer) {
     auto upstream = require<Payload>(frame, producer);
-    if (upstream.result && isPacked(*upstream.result)) {
+    if (upstream.result && objects::isPacked(*upstream.result)) {
       upstream.result = nullptr;
       upstream.flow = reportMissing(frame, producer);
     }

@@ -2,7 +2,7 @@
 // When each frame was taken, and what a jump in time means for the history (design rule 5).
 #pragma once
 
-#include "core/stage.hpp"
+#include "core/base/stage.hpp"
 
 #include <gst/gst.h>
 

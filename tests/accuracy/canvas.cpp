@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "tests/accuracy/canvas.hpp"
 
-#include "core/executor.hpp"
-#include "core/picture.hpp"
+#include "core/base/memory/executor.hpp"
+#include "core/base/picture.hpp"
 #include "tests/accuracy/dice.hpp"
 #include "tests/benchmarks/scene.hpp"
 

@@ -3,8 +3,8 @@
 // of a clip.
 #pragma once
 
-#include "core/geometry.hpp"
-#include "core/result.hpp"
+#include "core/base/geometry.hpp"
+#include "core/base/result.hpp"
 
 #include <array>
 #include <cstdint>

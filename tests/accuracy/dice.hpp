@@ -2,7 +2,7 @@
 // Numbers that follow from a seed: the same on every machine.
 #pragma once
 
-#include "core/pixel.hpp"
+#include "core/base/pixel.hpp"
 
 #include <cstdint>
 #include <utility>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Made-up scenes with known truth through the five stages, without GStreamer.
-#include "core/background.hpp"
-#include "core/objects.hpp"
-#include "core/pool.hpp"
+#include "core/background/background.hpp"
+#include "core/base/memory/pool.hpp"
+#include "core/objects/objects.hpp"
 #include "core/text/names.hpp"
 #include "tests/accuracy/painter.hpp"
 #include "tests/accuracy/verdict.hpp"
@@ -41,21 +41,21 @@ class Pipeline {
  public:
   explicit Pipeline(bool isPan)
       : context_{std::make_shared<Executor>(0), {}},
-        background_(isPan ? nullptr : makeBackgroundStage(context_)),
-        segmentation_(makeSegmentationStage(context_)),
-        graph_(makeGraphStage(context_)),
-        motion_(makeMotionStage(context_)),
-        objects_(makeObjectStage(context_)) {}
+        background_(isPan ? nullptr : background::makeStage(context_)),
+        segmentation_(segmentation::makeStage(context_)),
+        graph_(graph::makeStage(context_)),
+        motion_(motion::makeStage(context_)),
+        objects_(objects::makeStage(context_)) {}
 
-  std::shared_ptr<const Objects> process(const bench::RawFrame& raw) {
+  std::shared_ptr<const objects::Objects> process(const bench::RawFrame& raw) {
     const auto picture = pictures_.take();
     picture->load(raw.view(), *context_.cpu);
     const FrameTime time{frames_++ * 40'000'000, true};
-    std::shared_ptr<const Foreground> foreground;
-    SegmentationParams segmentation;
+    std::shared_ptr<const background::Foreground> foreground;
+    segmentation::Params segmentation;
     if (background_) {
       foreground = valueOf(background_->process(picture, {}, time));
-      segmentation.scope = Scope::Foreground;
+      segmentation.scope = segmentation::Scope::Foreground;
     }
     const auto labels = valueOf(segmentation_->process(picture, foreground, segmentation));
     const auto graph = valueOf(graph_->process(labels, {}));
@@ -66,11 +66,11 @@ class Pipeline {
  private:
   Context context_;
   Pool<Picture> pictures_;
-  std::unique_ptr<BackgroundStage> background_;
-  std::unique_ptr<SegmentationStage> segmentation_;
-  std::unique_ptr<GraphStage> graph_;
-  std::unique_ptr<MotionStage> motion_;
-  std::unique_ptr<ObjectStage> objects_;
+  std::unique_ptr<background::Stage> background_;
+  std::unique_ptr<segmentation::Stage> segmentation_;
+  std::unique_ptr<graph::Stage> graph_;
+  std::unique_ptr<motion::Stage> motion_;
+  std::unique_ptr<objects::Stage> objects_;
   int64_t frames_ = 0;
 };
 
@@ -93,7 +93,7 @@ void outline(bench::RawFrame& frame, const Box& box, const std::array<uint8_t, 3
 
 /// A .ppm of the frame. Its buffer is drawn upon.
 void writePicture(const std::string& path, bench::RawFrame& frame, const Scene& scene,
-                  const Objects& objects) {
+                  const objects::Objects& objects) {
   const Image<uint16_t>& slots = objects.slots;
   for (int y = 0; y < slots.height(); ++y)
     for (int x = 0; x < slots.width(); ++x)
@@ -109,12 +109,12 @@ void writePicture(const std::string& path, bench::RawFrame& frame, const Scene& 
             {static_cast<int>(fact.box.x), static_cast<int>(fact.box.y),
              static_cast<int>(fact.box.width), static_cast<int>(fact.box.height)},
             {255, 255, 255});
-  for (const Object& object : objects.objects) {
+  for (const objects::Object& object : objects.objects) {
     const uint32_t hash = mixHash(static_cast<uint32_t>(object.id), 0, 5);
     const auto strong = [&](int shift) { return static_cast<uint8_t>(hash >> shift & 255); };
-    if (isListed(object.state))
+    if (objects::isListed(object.state))
       outline(frame, object.box, {strong(0), strong(8), strong(16)});
-    else if (object.state == ObjectState::New)
+    else if (object.state == objects::ObjectState::New)
       outline(frame, object.box, {0, 0, 0});
   }
   std::ofstream file(path, std::ios::binary);

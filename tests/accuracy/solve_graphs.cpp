@@ -17,31 +17,31 @@ namespace {
 constexpr uint32_t kSmall = 16;
 constexpr int kRuns = 5;
 
-bool readGraph(std::istream& in, uint32_t& nodes, std::vector<WeightedArc>& arcs) {
+bool readGraph(std::istream& in, uint32_t& nodes, std::vector<objects::WeightedArc>& arcs) {
   size_t count = 0;
   if (!(in >> nodes >> count)) return false;
   arcs.resize(count);
-  for (WeightedArc& arc : arcs)
+  for (objects::WeightedArc& arc : arcs)
     if (!(in >> arc.a >> arc.b >> arc.weight) || arc.a >= arc.b || arc.b >= nodes) return false;
   return true;
 }
 
 int run() {
-  MergeScratch scratch;
+  objects::MergeScratch scratch;
   uint32_t nodes = 0;
-  std::vector<WeightedArc> arcs;
+  std::vector<objects::WeightedArc> arcs;
   std::vector<uint32_t> groupOf;
   while (readGraph(std::cin, nodes, arcs)) {
     double leastUs = 1e12;
     for (int i = 0; i < kRuns; ++i) {
       groupOf.clear();
       const std::clock_t begin = std::clock();
-      minimise(nodes, arcs, scratch, groupOf);
+      objects::minimise(nodes, arcs, scratch, groupOf);
       const double us = 1e6 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
       leastUs = std::min(leastUs, us);
     }
     const int64_t best = nodes <= kSmall ? testing::bestKeptWeight(nodes, arcs) : -1;
-    std::printf("%lld %lld %.1f\n", static_cast<long long>(keptWeight(arcs, groupOf)),
+    std::printf("%lld %lld %.1f\n", static_cast<long long>(objects::keptWeight(arcs, groupOf)),
                 static_cast<long long>(best), leastUs);
   }
   if (std::cin.eof()) return 0;

@@ -3,9 +3,9 @@
 // one left out at a time. Under a panning camera without bgremove, where the merging alone parts
 // things from the ground, also by arcs: one between two regions is told right when it is kept
 // within a thing, or the ground, and broken between two.
-#include "core/background.hpp"
-#include "core/objects.hpp"
-#include "core/pool.hpp"
+#include "core/background/background.hpp"
+#include "core/base/memory/pool.hpp"
+#include "core/objects/objects.hpp"
 #include "tests/accuracy/painter.hpp"
 #include "tests/accuracy/verdict.hpp"
 #include "tests/support/value_of.hpp"
@@ -22,12 +22,12 @@ namespace {
 constexpr int kMixed = -2;  ///< A region of which less than three quarters are one actor's.
 
 /// Whose each region is: the actor that most of its pixels show, −1 for the ground.
-std::vector<int> ownersOf(const Graph& graph, const std::vector<int>& top) {
+std::vector<int> ownersOf(const graph::Graph& graph, const std::vector<int>& top) {
   std::vector<std::map<int, uint32_t>> votes(graph.regions.size());
   const Image<uint16_t>& ids = graph.labels->ids;
   for (int y = 0; y < ids.height(); ++y)
     for (int x = 0; x < ids.width(); ++x)
-      if (ids.at(x, y) != kNoRegion)
+      if (ids.at(x, y) != segmentation::kNoRegion)
         ++votes[ids.at(x, y) - 1u][top[static_cast<size_t>(y * ids.width() + x)]];
   std::vector<int> owners;
   for (const std::map<int, uint32_t>& of : votes) {
@@ -74,21 +74,21 @@ struct Means {
 /// Stage 5 with one term left out, or with all of them.
 struct Trial {
   const char* name;
-  double ObjectParams::*leftOut = nullptr;
-  ObjectParams params;
-  std::unique_ptr<ObjectStage> stage;
+  double objects::Params::*leftOut = nullptr;
+  objects::Params params;
+  std::unique_ptr<objects::Stage> stage;
   Verdict verdict;
   Means means;
 
   /// owners: of the regions, as ownersOf() tells; empty where arcs don't count.
-  void judge(const std::shared_ptr<const Motion>& motion, const std::vector<int>& owners,
+  void judge(const std::shared_ptr<const motion::Motion>& motion, const std::vector<int>& owners,
              const Scene& scene, FrameTime time) {
     const auto objects = valueOf(stage->process(motion, params, time));
     verdict.add(scene, *objects);
     if (owners.empty()) return;
     Counts& counts = means.arcs;
     if (objects->arcs.empty()) return;
-    for (const Arc& arc : motion->graph->arcs) {
+    for (const graph::Arc& arc : motion->graph->arcs) {
       const size_t a = arc.a - 1u, b = arc.b - 1u;
       if (owners[a] == kMixed || owners[b] == kMixed) continue;
       const bool isKept = objects->regionGroup[a] == objects->regionGroup[b];
@@ -107,13 +107,13 @@ using Trials = std::array<Trial, 5>;
 
 Trials makeTrials(const Context& context) {
   Trials trials{{{"all terms", nullptr, {}, {}, {}, {}},
-                 {"without U1", &ObjectParams::motionWeight, {}, {}, {}, {}},
-                 {"without U2", &ObjectParams::borderWeight, {}, {}, {}, {}},
-                 {"without U3", &ObjectParams::arcWeight, {}, {}, {}, {}},
-                 {"no prediction", &ObjectParams::predictionWeight, {}, {}, {}, {}}}};
+                 {"without U1", &objects::Params::motionWeight, {}, {}, {}, {}},
+                 {"without U2", &objects::Params::borderWeight, {}, {}, {}, {}},
+                 {"without U3", &objects::Params::arcWeight, {}, {}, {}, {}},
+                 {"no prediction", &objects::Params::predictionWeight, {}, {}, {}, {}}}};
   for (Trial& trial : trials) {
     if (trial.leftOut) trial.params.*trial.leftOut = 0;
-    trial.stage = makeObjectStage(context);
+    trial.stage = objects::makeStage(context);
   }
   return trials;
 }
@@ -123,10 +123,10 @@ void play(uint32_t seed, bool isPan, const Context& context, Trials& trials) {
   Plan plan = isPan ? planPan(seed, kSize) : planStill(seed, kSize);
   const Size canvas = plan.canvas;
   Painter painter(std::move(plan), makeYard(seed, canvas), seed);
-  const auto background = isPan ? nullptr : makeBackgroundStage(context);
-  const auto segmentation = makeSegmentationStage(context);
-  const auto graph = makeGraphStage(context);
-  const auto motion = makeMotionStage(context);
+  const auto background = isPan ? nullptr : background::makeStage(context);
+  const auto segmentation = segmentation::makeStage(context);
+  const auto graph = graph::makeStage(context);
+  const auto motion = motion::makeStage(context);
   Pool<Picture> pictures;
   bench::RawFrame frame;
   truth::Scene scene;
@@ -134,11 +134,11 @@ void play(uint32_t seed, bool isPan, const Context& context, Trials& trials) {
     const FrameTime time{number * 40'000'000, true};
     const auto picture = pictures.take();
     picture->load(frame.view(), *context.cpu);
-    std::shared_ptr<const Foreground> foreground;
-    SegmentationParams params;
+    std::shared_ptr<const background::Foreground> foreground;
+    segmentation::Params params;
     if (background) {
       foreground = valueOf(background->process(picture, {}, time));
-      params.scope = Scope::Foreground;
+      params.scope = segmentation::Scope::Foreground;
     }
     const auto labels = valueOf(segmentation->process(picture, foreground, params));
     const auto regions = valueOf(graph->process(labels, {}));
@@ -171,7 +171,7 @@ int run(uint32_t first, uint32_t last, bool isPan) {
   for (uint32_t seed = first; seed <= last; ++seed) {
     for (Trial& trial : trials) {
       trial.verdict = {};
-      trial.stage = makeObjectStage(context);
+      trial.stage = objects::makeStage(context);
     }
     play(seed, isPan, context, trials);
     for (Trial& trial : trials) trial.means.add(trial.verdict.figures());

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "tests/accuracy/verdict.hpp"
 
-#include "core/assignment.hpp"
+#include "core/objects/tracking/assignment.hpp"
 #include "core/text/names.hpp"
 
 #include <algorithm>
@@ -31,9 +31,9 @@ bool isToBeFound(const Fact& fact) {
   return fact.isInside && fact.visible >= kSeen;
 }
 
-double distance(const Fact& fact, const Object& object) {
-  return std::hypot(double(object.centroidX) / kPositionUnit - fact.centroidX,
-                    double(object.centroidY) / kPositionUnit - fact.centroidY);
+double distance(const Fact& fact, const objects::Object& object) {
+  return std::hypot(double(object.centroidX) / objects::kPositionUnit - fact.centroidX,
+                    double(object.centroidY) / objects::kPositionUnit - fact.centroidY);
 }
 
 }  // namespace
@@ -60,16 +60,16 @@ void Verdict::note(int actor, uint64_t id) {
 
 /// The listed objects that are paired with what is not to be found: as MOTChallenge does, they are
 /// taken out before anything is counted.
-std::set<uint64_t> Verdict::pairedWithHidden(const Scene& scene, const Objects& objects) {
-  std::vector<const Object*> listed;
-  for (const Object& object : objects.objects)
-    if (rg::isListed(object.state)) listed.push_back(&object);
+std::set<uint64_t> Verdict::pairedWithHidden(const Scene& scene, const objects::Objects& objects) {
+  std::vector<const objects::Object*> listed;
+  for (const objects::Object& object : objects.objects)
+    if (rg::objects::isListed(object.state)) listed.push_back(&object);
   constexpr int64_t kFull = 1'000'000;
   std::vector<int64_t> costs;
   for (const Fact& fact : scene.facts)
-    for (const Object* object : listed) {
+    for (const objects::Object* object : listed) {
       const double fit = overlap(fact.box, object->box);
-      costs.push_back(fit >= kMatch ? std::llround(kFull * (1 - fit)) : kForbidden);
+      costs.push_back(fit >= kMatch ? std::llround(kFull * (1 - fit)) : objects::kForbidden);
     }
   assignment_.solve(costs, static_cast<int>(scene.facts.size()), static_cast<int>(listed.size()),
                     kFull);
@@ -82,14 +82,14 @@ std::set<uint64_t> Verdict::pairedWithHidden(const Scene& scene, const Objects& 
   return paired;
 }
 
-void Verdict::add(const Scene& scene, const Objects& objects) {
+void Verdict::add(const Scene& scene, const objects::Objects& objects) {
   const std::set<uint64_t> removed = pairedWithHidden(scene, objects);
   std::set<uint64_t> fitting, excused;
   for (const Fact& fact : scene.facts) {
     uint64_t best = 0;
     double most = kMatch;
-    for (const Object& object : objects.objects) {
-      const bool isListed = rg::isListed(object.state) && !removed.contains(object.id);
+    for (const objects::Object& object : objects.objects) {
+      const bool isListed = rg::objects::isListed(object.state) && !removed.contains(object.id);
       const double fit = overlap(fact.box, object.box);
       if (isListed && !isToBeFound(fact) &&
           2 * sharedArea(fact.box, object.box) >= static_cast<double>(object.box.area()))
@@ -110,8 +110,8 @@ void Verdict::add(const Scene& scene, const Objects& objects) {
     found_ += best != 0;
     note(fact.actor, best);
   }
-  for (const Object& object : objects.objects) {
-    if (!rg::isListed(object.state) || removed.contains(object.id)) continue;
+  for (const objects::Object& object : objects.objects) {
+    if (!rg::objects::isListed(object.state) || removed.contains(object.id)) continue;
     if (!fitting.contains(object.id) && excused.contains(object.id)) continue;
     ++reports_;
     if (fitting.contains(object.id)) continue;
@@ -123,8 +123,8 @@ void Verdict::add(const Scene& scene, const Objects& objects) {
       spans.push_back({frames_, frames_, object.id});
   }
   if (frames_ >= kWithoutCamera)
-    camera_.add(std::hypot(double(objects.cameraDx) / kMotionUnit - scene.cameraDx,
-                           double(objects.cameraDy) / kMotionUnit - scene.cameraDy));
+    camera_.add(std::hypot(double(objects.cameraDx) / motion::kMotionUnit - scene.cameraDx,
+                           double(objects.cameraDy) / motion::kMotionUnit - scene.cameraDy));
   ++frames_;
 }
 
@@ -138,14 +138,14 @@ std::map<int, uint64_t> Verdict::bestPartners() const {
     if (std::find(ids.begin(), ids.end(), key.second) == ids.end()) ids.push_back(key.second);
   }
   std::sort(ids.begin(), ids.end());
-  std::vector<int64_t> costs(actors.size() * ids.size(), kForbidden);
+  std::vector<int64_t> costs(actors.size() * ids.size(), objects::kForbidden);
   for (size_t a = 0; a < actors.size(); ++a)
     for (size_t i = 0; i < ids.size(); ++i) {
       const auto found = pairs_.find({actors[a], ids[i]});
       if (found != pairs_.end() && found->second.matches > 0)
         costs[a * ids.size() + i] = frames_ - found->second.matches;
     }
-  Assignment assignment;
+  objects::Assignment assignment;
   assignment.solve(costs, static_cast<int>(actors.size()), static_cast<int>(ids.size()), frames_);
   std::map<int, uint64_t> partners;
   for (size_t a = 0; a < actors.size(); ++a) {

@@ -2,8 +2,8 @@
 // How well reported objects agree with what is true.
 #pragma once
 
-#include "core/assignment.hpp"
-#include "core/objects.hpp"
+#include "core/objects/objects.hpp"
+#include "core/objects/tracking/assignment.hpp"
 #include "tests/accuracy/painter.hpp"
 
 #include <cstdint>
@@ -29,7 +29,7 @@ struct Figures {
 /// boxes around anything else are neither right nor wrong.
 class Verdict {
  public:
-  void add(const Scene& scene, const Objects& objects);
+  void add(const Scene& scene, const objects::Objects& objects);
   [[nodiscard]] Figures figures() const;
   /// For each actor which numbers it had when, and where boxes were that fit nothing.
   void explain(std::ostream& out) const;
@@ -50,14 +50,15 @@ class Verdict {
     int first = 0, last = 0;
     uint64_t id = 0;  ///< 0 = not found.
   };
-  [[nodiscard]] std::set<uint64_t> pairedWithHidden(const Scene& scene, const Objects& objects);
+  [[nodiscard]] std::set<uint64_t> pairedWithHidden(const Scene& scene,
+                                                    const objects::Objects& objects);
   void note(int actor, uint64_t id);
   [[nodiscard]] std::map<int, uint64_t> bestPartners() const;
 
   std::map<std::pair<int, uint64_t>, Pair> pairs_;
   std::map<int, std::vector<Span>> spans_;
   std::map<uint64_t, std::vector<Span>> strays_;
-  Assignment assignment_;
+  objects::Assignment assignment_;
   Mean camera_;
   int64_t facts_ = 0, reports_ = 0, found_ = 0, false_ = 0;
   int frames_ = 0;

@@ -75,11 +75,11 @@ void collect(Chain& chain, Shown& shown) {
   while (GstBuffer* pulled = gst_harness_try_pull(chain.harness())) {
     const BufferPtr buffer(pulled);
     Digest digest;
-    addResult<Foreground>(pulled, digest);
-    addResult<Labels>(pulled, digest);
-    addResult<Graph>(pulled, digest);
-    addResult<Motion>(pulled, digest);
-    addResult<Objects>(pulled, digest);
+    addResult<background::Foreground>(pulled, digest);
+    addResult<segmentation::Labels>(pulled, digest);
+    addResult<graph::Graph>(pulled, digest);
+    addResult<motion::Motion>(pulled, digest);
+    addResult<objects::Objects>(pulled, digest);
     for (const uint8_t byte : bytesOf(pulled)) digest.add(byte);
     shown[GST_BUFFER_PTS(pulled)] = digest.value();
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Each stage by itself: after an exception it goes on as after reset(Reset::Stream).
-#include "core/objects.hpp"
+#include "core/objects/objects.hpp"
 #include "tests/alloc/places.hpp"
 #include "tests/core/scenes.hpp"
 #include "tests/support/digest.hpp"
@@ -37,36 +37,37 @@ Context context(int threads) {
 /// What one frame's input is to each stage; made once, by stages that never fail.
 struct Inputs {
   std::vector<std::shared_ptr<const Picture>> pictures;
-  std::vector<std::shared_ptr<const Foreground>> foregrounds;
-  std::vector<std::shared_ptr<const Labels>> labels;
-  std::vector<std::shared_ptr<const Graph>> graphs;
-  std::vector<std::shared_ptr<const Motion>> motions;
+  std::vector<std::shared_ptr<const background::Foreground>> foregrounds;
+  std::vector<std::shared_ptr<const segmentation::Labels>> labels;
+  std::vector<std::shared_ptr<const graph::Graph>> graphs;
+  std::vector<std::shared_ptr<const motion::Motion>> motions;
 };
 
 FrameTime timeOf(int frame) {
   return {frame * int64_t{40'000'000}, true};
 }
 
-SegmentationParams segmentationOf(Scope scope) {
-  SegmentationParams params;
+segmentation::Params segmentationOf(segmentation::Scope scope) {
+  segmentation::Params params;
   params.scope = scope;
   params.minAreaPx = 12;
   return params;
 }
 
-const Inputs& inputsOf(Scope scope) {
-  static std::map<Scope, Inputs> made;
+const Inputs& inputsOf(segmentation::Scope scope) {
+  static std::map<segmentation::Scope, Inputs> made;
   Inputs& inputs = made[scope];
   if (!inputs.pictures.empty()) return inputs;
-  const auto background = makeBackgroundStage(context(1));
-  const auto segmentation = makeSegmentationStage(context(1));
-  const auto graph = makeGraphStage(context(1));
-  const auto motion = makeMotionStage(context(1));
+  const auto background = background::makeStage(context(1));
+  const auto segmentation = segmentation::makeStage(context(1));
+  const auto graph = graph::makeStage(context(1));
+  const auto motion = motion::makeStage(context(1));
   for (int i = 0; i < kFrames; ++i) {
-    inputs.pictures.push_back(pictureAt(i, scope == Scope::Frame ? 1 : 0));
+    inputs.pictures.push_back(pictureAt(i, scope == segmentation::Scope::Frame ? 1 : 0));
     inputs.foregrounds.push_back(*background->process(inputs.pictures.back(), {}, timeOf(i)));
     inputs.labels.push_back(*segmentation->process(
-        inputs.pictures.back(), scope == Scope::Frame ? nullptr : inputs.foregrounds.back(),
+        inputs.pictures.back(),
+        scope == segmentation::Scope::Frame ? nullptr : inputs.foregrounds.back(),
         segmentationOf(scope)));
     inputs.graphs.push_back(*graph->process(inputs.labels.back(), {}));
     inputs.motions.push_back(*motion->process(inputs.graphs.back(), {}));
@@ -137,33 +138,33 @@ void addPlaces(const std::string& name, const MakeSubject& make, std::vector<Pla
   }
 }
 
-const char* nameOf(BackgroundMethod method) {
+const char* nameOf(background::Method method) {
   switch (method) {
-    case BackgroundMethod::Paper:
+    case background::Method::Paper:
       return "background by the paper";
-    case BackgroundMethod::FrameDifference:
+    case background::Method::FrameDifference:
       return "background by frame difference";
-    case BackgroundMethod::Hybrid:
+    case background::Method::Hybrid:
       break;
   }
   return "hybrid background";
 }
 
-void addBackground(BackgroundMethod method, int threads, std::vector<Place>& places) {
-  const auto process = [=](BackgroundStage& stage, size_t i) {
-    BackgroundParams params;
+void addBackground(background::Method method, int threads, std::vector<Place>& places) {
+  const auto process = [=](background::Stage& stage, size_t i) {
+    background::Params params;
     params.method = method;
     params.trainingFrames = 3;
-    return *stage.process(inputsOf(Scope::Foreground).pictures[i], params,
+    return *stage.process(inputsOf(segmentation::Scope::Foreground).pictures[i], params,
                           timeOf(static_cast<int>(i)));
   };
   addPlaces(
-      nameOf(method), [=] { return subjectOf(makeBackgroundStage(context(threads)), process); },
+      nameOf(method), [=] { return subjectOf(background::makeStage(context(threads)), process); },
       places);
 }
 
-void addOthers(Scope scope, int threads, std::vector<Place>& places) {
-  const std::string of = scope == Scope::Frame ? " of frames" : " of the foreground";
+void addOthers(segmentation::Scope scope, int threads, std::vector<Place>& places) {
+  const std::string of = scope == segmentation::Scope::Frame ? " of frames" : " of the foreground";
   const auto add = [&](const char* name, auto makeStage, auto process) {
     addPlaces(
         name + of,
@@ -174,18 +175,19 @@ void addOthers(Scope scope, int threads, std::vector<Place>& places) {
         },
         places);
   };
-  add("segmentation", makeSegmentationStage,
-      [=](SegmentationStage& stage, const Inputs& in, size_t i) {
-        return *stage.process(in.pictures[i], scope == Scope::Frame ? nullptr : in.foregrounds[i],
+  add("segmentation", segmentation::makeStage,
+      [=](segmentation::Stage& stage, const Inputs& in, size_t i) {
+        return *stage.process(in.pictures[i],
+                              scope == segmentation::Scope::Frame ? nullptr : in.foregrounds[i],
                               segmentationOf(scope));
       });
-  add("graph", makeGraphStage, [](GraphStage& stage, const Inputs& in, size_t i) {
+  add("graph", graph::makeStage, [](graph::Stage& stage, const Inputs& in, size_t i) {
     return *stage.process(in.labels[i], {Connectivity::Eight});
   });
-  add("motion", makeMotionStage, [](MotionStage& stage, const Inputs& in, size_t i) {
+  add("motion", motion::makeStage, [](motion::Stage& stage, const Inputs& in, size_t i) {
     return *stage.process(in.graphs[i], {});
   });
-  add("objects", makeObjectStage, [](ObjectStage& stage, const Inputs& in, size_t i) {
+  add("objects", objects::makeStage, [](objects::Stage& stage, const Inputs& in, size_t i) {
     return *stage.process(in.motions[i], {}, timeOf(static_cast<int>(i)));
   });
 }
@@ -195,10 +197,12 @@ void addOthers(Scope scope, int threads, std::vector<Place>& places) {
 std::vector<Place> stagePlaces() {
   std::vector<Place> places;
   for (const int threads : {1, 2}) {
-    for (const auto method :
-         {BackgroundMethod::Hybrid, BackgroundMethod::Paper, BackgroundMethod::FrameDifference})
+    for (const auto method : {background::Method::Hybrid, background::Method::Paper,
+                              background::Method::FrameDifference})
       addBackground(method, threads, places);
-    for (const Scope scope : {Scope::Frame, Scope::Foreground}) addOthers(scope, threads, places);
+    for (const segmentation::Scope scope :
+         {segmentation::Scope::Frame, segmentation::Scope::Foreground})
+      addOthers(scope, threads, places);
   }
   return places;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // A pipeline that has seen its scene for a while works in the memory that it has.
-#include "core/result_packer.hpp"
+#include "core/objects/objects.hpp"
 #include "tests/alloc/failing_new.hpp"
 #include "tests/core/scenes.hpp"
 
@@ -41,7 +41,7 @@ using Counts = std::array<uint64_t, 6>;
 
 class Counted {
  public:
-  explicit Counted(Scope scope) : scope_(scope) {}
+  explicit Counted(segmentation::Scope scope) : scope_(scope) {}
 
   Counts process(const std::shared_ptr<const Picture>& picture) {
     const FrameTime now{index_++ * int64_t{40'000'000}, true};
@@ -55,8 +55,8 @@ class Counted {
     };
     const auto foreground = count([&] { return background_->process(picture, {}, now); });
     const auto labels = count([&] {
-      return segmentation_->process(picture, scope_ == Scope::Frame ? nullptr : foreground,
-                                    {scope_});
+      return segmentation_->process(
+          picture, scope_ == segmentation::Scope::Frame ? nullptr : foreground, {scope_});
     });
     const auto graph = count([&] { return graph_->process(labels, {}); });
     const auto motion = count([&] { return motion_->process(graph, {}); });
@@ -71,21 +71,22 @@ class Counted {
   [[nodiscard]] size_t seen() const { return seen_; }
 
  private:
-  const Scope scope_;
+  const segmentation::Scope scope_;
   const Context context_ = contextWith(1);
-  const std::unique_ptr<BackgroundStage> background_ = makeBackgroundStage(context_);
-  const std::unique_ptr<SegmentationStage> segmentation_ = makeSegmentationStage(context_);
-  const std::unique_ptr<GraphStage> graph_ = makeGraphStage(context_);
-  const std::unique_ptr<MotionStage> motion_ = makeMotionStage(context_);
-  const std::unique_ptr<ObjectStage> objects_ = makeObjectStage(context_);
-  ResultPacker packer_;
+  const std::unique_ptr<background::Stage> background_ = background::makeStage(context_);
+  const std::unique_ptr<segmentation::Stage> segmentation_ = segmentation::makeStage(context_);
+  const std::unique_ptr<graph::Stage> graph_ = graph::makeStage(context_);
+  const std::unique_ptr<motion::Stage> motion_ = motion::makeStage(context_);
+  const std::unique_ptr<objects::Stage> objects_ = objects::makeStage(context_);
+  objects::ResultPacker packer_;
   int index_ = 0;
   size_t seen_ = 0;
 };
 
 TEST(SteadyState, NeedsNoMemory) {
   const auto pictures = toAndFro();
-  for (const Scope scope : {Scope::Foreground, Scope::Frame}) {
+  for (const segmentation::Scope scope :
+       {segmentation::Scope::Foreground, segmentation::Scope::Frame}) {
     Counted chain(scope);
     Counts sums{};
     for (int i = 0; i < kWarmUp + kCounted; ++i) {

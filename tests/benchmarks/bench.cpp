@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Times of the five core stages, without GStreamer; on the whole frame as in the paper's figures,
 // unless the scope is the foreground.
-#include "core/background.hpp"
-#include "core/objects.hpp"
-#include "core/pool.hpp"
-#include "core/region_graph.hpp"
-#include "core/region_motion.hpp"
-#include "core/segmentation.hpp"
+#include "core/background/background.hpp"
+#include "core/base/memory/pool.hpp"
+#include "core/graph/graph.hpp"
+#include "core/motion/motion.hpp"
+#include "core/objects/objects.hpp"
+#include "core/segmentation/segmentation.hpp"
 #include "tests/benchmarks/scene.hpp"
 #include "tests/benchmarks/timing.hpp"
 #include "tests/support/value_of.hpp"
@@ -23,11 +23,11 @@ class Pipeline {
  public:
   explicit Pipeline(const Options& options)
       : context_{std::make_shared<Executor>(options.threads), {}} {
-    background_ = makeBackgroundStage(context_);
-    segmentation_ = makeSegmentationStage(context_);
-    graph_ = makeGraphStage(context_);
-    motion_ = makeMotionStage(context_);
-    objects_ = makeObjectStage(context_);
+    background_ = background::makeStage(context_);
+    segmentation_ = segmentation::makeStage(context_);
+    graph_ = graph::makeStage(context_);
+    motion_ = motion::makeStage(context_);
+    objects_ = objects::makeStage(context_);
     segmentationParams_.scope = options.scope;
     segmentationParams_.maxRegions = options.regions;
     segmentationParams_.minAreaPx = options.minAreaPx;
@@ -42,9 +42,9 @@ class Pipeline {
     const FrameTime time{frames_++ * 40'000'000, true};
     timings.measure(kLoadRow, [&] { picture->load(frame, *context_.cpu); });
     auto foreground = timings.measure(kBackgroundRow, [&] {
-      return valueOf(background_->process(picture, BackgroundParams{}, time));
+      return valueOf(background_->process(picture, background::Params{}, time));
     });
-    if (segmentationParams_.scope == Scope::Frame) foreground.reset();
+    if (segmentationParams_.scope == segmentation::Scope::Frame) foreground.reset();
     const auto labels = timings.measure(kStages[0], [&] {
       return valueOf(segmentation_->process(picture, foreground, segmentationParams_));
     });
@@ -53,7 +53,7 @@ class Pipeline {
     const auto motion = timings.measure(
         kStages[2], [&] { return valueOf(motion_->process(graph, motionParams_)); });
     const auto objects = timings.measure(
-        kStages[3], [&] { return valueOf(objects_->process(motion, ObjectParams{}, time)); });
+        kStages[3], [&] { return valueOf(objects_->process(motion, objects::Params{}, time)); });
     note(*motion, *objects);
   }
 
@@ -68,7 +68,7 @@ class Pipeline {
   [[nodiscard]] int threads() const { return context_.cpu->threads(); }
 
  private:
-  void note(const Motion& motion, const Objects& objects) {
+  void note(const motion::Motion& motion, const objects::Objects& objects) {
     notes_.fewestRegions = std::min(notes_.fewestRegions, motion.regions.size());
     notes_.mostRegions = std::max(notes_.mostRegions, motion.regions.size());
     notes_.objects = objects.objects.size();
@@ -78,14 +78,14 @@ class Pipeline {
 
   Context context_;
   Pool<Picture> pictures_;
-  std::unique_ptr<BackgroundStage> background_;
-  std::unique_ptr<SegmentationStage> segmentation_;
-  std::unique_ptr<GraphStage> graph_;
-  std::unique_ptr<MotionStage> motion_;
-  std::unique_ptr<ObjectStage> objects_;
-  SegmentationParams segmentationParams_;
-  GraphParams graphParams_;
-  MotionParams motionParams_;
+  std::unique_ptr<background::Stage> background_;
+  std::unique_ptr<segmentation::Stage> segmentation_;
+  std::unique_ptr<graph::Stage> graph_;
+  std::unique_ptr<motion::Stage> motion_;
+  std::unique_ptr<objects::Stage> objects_;
+  segmentation::Params segmentationParams_;
+  graph::Params graphParams_;
+  motion::Params motionParams_;
   int64_t frames_ = 0;
   Notes notes_;
 };

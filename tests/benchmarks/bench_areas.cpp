@@ -2,10 +2,10 @@
 // Areas against the whole frame for 1 to 13 things, as in tables 1 and 2 of the paper: bgremove
 // method=frame-difference by search=areas and search=frame, hsvsegment by scope=areas and
 // scope=frame. Both sides see the same frames in turn.
-#include "core/background.hpp"
-#include "core/pixel.hpp"
-#include "core/pool.hpp"
-#include "core/segmentation.hpp"
+#include "core/background/background.hpp"
+#include "core/base/memory/pool.hpp"
+#include "core/base/pixel.hpp"
+#include "core/segmentation/segmentation.hpp"
 #include "tests/benchmarks/options.hpp"
 #include "tests/support/same_regions.hpp"
 #include "tests/support/value_of.hpp"
@@ -91,7 +91,7 @@ class Scene {
   std::vector<Box> things_;
 };
 
-bool isSame(const Foreground& a, const Foreground& b) {
+bool isSame(const background::Foreground& a, const background::Foreground& b) {
   bool isSame = a.areas == b.areas;
   for (int y = 0; y < a.size.height; ++y)
     isSame =
@@ -150,21 +150,23 @@ class Comparison {
     const auto picture = pictures_.take();
     picture->load(scene_.view(), *context_.cpu);
     const FrameTime at{time * int64_t{40'000'000}, true};
-    const auto find = [&](BackgroundStage& stage, SearchScope search) {
-      BackgroundParams params;
-      params.method = BackgroundMethod::FrameDifference;
+    const auto find = [&](background::Stage& stage, background::SearchScope search) {
+      background::Params params;
+      params.method = background::Method::FrameDifference;
       params.search = search;
       return valueOf(stage.process(picture, params, at));
     };
-    const auto whole = timed(motionFrame_, [&] { return find(*inFrame_, SearchScope::Frame); });
-    const auto found = timed(motionAreas_, [&] { return find(*inAreas_, SearchScope::Areas); });
-    const auto divide = [&](Scope scope) {
-      SegmentationParams params;
+    const auto whole =
+        timed(motionFrame_, [&] { return find(*inFrame_, background::SearchScope::Frame); });
+    const auto found =
+        timed(motionAreas_, [&] { return find(*inAreas_, background::SearchScope::Areas); });
+    const auto divide = [&](segmentation::Scope scope) {
+      segmentation::Params params;
       params.scope = scope;
       return valueOf(segmentation_->process(picture, found, params));
     };
-    const auto all = timed(colourFrame_, [&] { return divide(Scope::Frame); });
-    const auto part = timed(colourAreas_, [&] { return divide(Scope::Areas); });
+    const auto all = timed(colourFrame_, [&] { return divide(segmentation::Scope::Frame); });
+    const auto part = timed(colourAreas_, [&] { return divide(segmentation::Scope::Areas); });
     ++figures_.frames;
     figures_.sameFrames += isSame(*whole, *found);
     const test::RegionMatch match = test::matchRegions(*part, *all);
@@ -176,9 +178,9 @@ class Comparison {
   Scene scene_;
   int frames_;
   Pool<Picture> pictures_;
-  std::unique_ptr<BackgroundStage> inFrame_ = makeBackgroundStage(context_);
-  std::unique_ptr<BackgroundStage> inAreas_ = makeBackgroundStage(context_);
-  std::unique_ptr<SegmentationStage> segmentation_ = makeSegmentationStage(context_);
+  std::unique_ptr<background::Stage> inFrame_ = background::makeStage(context_);
+  std::unique_ptr<background::Stage> inAreas_ = background::makeStage(context_);
+  std::unique_ptr<segmentation::Stage> segmentation_ = segmentation::makeStage(context_);
   std::vector<double> motionAreas_, motionFrame_, colourAreas_, colourFrame_;
   Figures figures_;
 };

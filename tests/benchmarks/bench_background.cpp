@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // bgremove on every SIMD target against OpenCV's background subtractors: in one process, on the
 // same scaled frames of the clip, in turn frame by frame, with the same number of threads.
-#include "core/background.hpp"
-#include "core/pool.hpp"
+#include "core/background/background.hpp"
+#include "core/base/memory/pool.hpp"
 #include "tests/benchmarks/scene.hpp"
 #include "tests/benchmarks/timing.hpp"
 
@@ -74,9 +74,9 @@ class Ours final : public Subtractor {
       : Subtractor(std::string("bgremove ") + hwy::TargetName(target)),
         target_(target),
         context_{std::make_shared<Executor>(threads), {}},
-        stage_(makeBackgroundStage(context_)) {}
+        stage_(background::makeStage(context_)) {}
 
-  [[nodiscard]] const Foreground& result() const { return *result_; }
+  [[nodiscard]] const background::Foreground& result() const { return *result_; }
 
  private:
   void apply(const cv::Mat& frame) override {
@@ -90,9 +90,9 @@ class Ours final : public Subtractor {
 
   int64_t target_;
   Context context_;
-  std::unique_ptr<BackgroundStage> stage_;
+  std::unique_ptr<background::Stage> stage_;
   Pool<Picture> pictures_;
-  std::shared_ptr<const Foreground> result_;
+  std::shared_ptr<const background::Foreground> result_;
   int64_t frames_ = 0;
 };
 

@@ -68,7 +68,8 @@ bool Options::*flagOf(std::string_view name) {
 }
 
 bool setScope(Options& options, std::string_view value) {
-  options.scope = value == "foreground" ? Scope::Foreground : Scope::Frame;
+  options.scope =
+      value == "foreground" ? segmentation::Scope::Foreground : segmentation::Scope::Frame;
   return value == "foreground" || value == "frame";
 }
 

@@ -2,9 +2,9 @@
 // The command line that the benchmarks share.
 #pragma once
 
-#include "core/geometry.hpp"
-#include "core/result.hpp"
-#include "core/segmentation.hpp"
+#include "core/base/geometry.hpp"
+#include "core/base/result.hpp"
+#include "core/segmentation/segmentation.hpp"
 
 #include <span>
 #include <string>
@@ -32,16 +32,16 @@ struct Options {
   int threads = 0;      ///< 0 = all cores.
   int frames = 50;      ///< Measured, after a warm-up.
   int warmUp = kWarmUpFrames;
-  bool asksTable = false;      ///< Measure the paper's sizes and numbers of regions.
-  int minAreaPx = 0;           ///< Of regions; 0 = by the frame's size.
-  int similarity = 2;          ///< Of neighbours in one region, in grey levels.
-  int connectivity = 4;        ///< Of the graph, 4 or 8.
-  bool asksWorst = false;      ///< Compare frames made to be expensive with those of the scene.
-  bool asksExtreme = false;    ///< The settings that cost most: as many and as small regions as can
-                               ///< be, all 8 neighbours, the longest shifts.
-  bool asksCpu = false;        ///< Measure the processor's time, not the wall's.
-  Scope scope = Scope::Frame;  ///< Foreground: as behind bgremove.
-  bool asksHelp = false;       ///< Print the usage and do nothing.
+  bool asksTable = false;    ///< Measure the paper's sizes and numbers of regions.
+  int minAreaPx = 0;         ///< Of regions; 0 = by the frame's size.
+  int similarity = 2;        ///< Of neighbours in one region, in grey levels.
+  int connectivity = 4;      ///< Of the graph, 4 or 8.
+  bool asksWorst = false;    ///< Compare frames made to be expensive with those of the scene.
+  bool asksExtreme = false;  ///< The settings that cost most: as many and as small regions as can
+                             ///< be, all 8 neighbours, the longest shifts.
+  bool asksCpu = false;      ///< Measure the processor's time, not the wall's.
+  segmentation::Scope scope = segmentation::Scope::Frame;  ///< Foreground: as behind bgremove.
+  bool asksHelp = false;                                   ///< Print the usage and do nothing.
 };
 
 /// Errors name the option that is unknown, lacks its value or is out of range.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "core/pixel.hpp"
+#include "core/base/pixel.hpp"
 #include "tests/benchmarks/scene.hpp"
 
 #include <algorithm>

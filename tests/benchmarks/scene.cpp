@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "tests/benchmarks/scene.hpp"
 
-#include "core/pixel.hpp"
+#include "core/base/pixel.hpp"
 
 #include <array>
 #include <cmath>

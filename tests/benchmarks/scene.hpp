@@ -2,8 +2,8 @@
 // Frames to measure on: a scene, or a file.
 #pragma once
 
-#include "core/frame.hpp"
-#include "core/result.hpp"
+#include "core/base/frame.hpp"
+#include "core/base/result.hpp"
 #include "tests/benchmarks/options.hpp"
 
 #include <cstdint>

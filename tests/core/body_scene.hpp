@@ -2,7 +2,7 @@
 // Frames of rectangles for stage 5.
 #pragma once
 
-#include "core/objects.hpp"
+#include "core/objects/objects.hpp"
 
 #include <gtest/gtest.h>
 
@@ -16,20 +16,21 @@ constexpr int64_t kStepNs = 40'000'000;
 
 struct Body {
   Box box;
-  Colour colour;
+  graph::Colour colour;
 };
 
 /// Frames of rectangles on an empty background, as the stages before hand them on: each colour that
 /// is seen is a region, later bodies cover earlier ones.
 class BodyScene {
  public:
-  explicit BodyScene(Size size = {320, 240}, Scope scope = Scope::Foreground)
+  explicit BodyScene(Size size = {320, 240},
+                     segmentation::Scope scope = segmentation::Scope::Foreground)
       : size_(size), scope_(scope) {}
 
-  std::shared_ptr<const Objects> show(const std::vector<Body>& bodies,
-                                      const std::vector<RegionMotion>& motions = {}) {
+  std::shared_ptr<const objects::Objects> show(
+      const std::vector<Body>& bodies, const std::vector<motion::RegionMotion>& motions = {}) {
     auto picture = std::make_shared<Picture>();
-    auto labels = std::make_shared<Labels>();
+    auto labels = std::make_shared<segmentation::Labels>();
     labels->size = size_;
     labels->status = Status::Ok;
     labels->scope = scope_;
@@ -46,28 +47,28 @@ class BodyScene {
     for (int y = 0; y < size_.height; ++y)
       for (int x = 0; x < size_.width; ++x) labelOf[labels->ids.at(x, y)] = 1;
     labelOf[0] = 0;
-    std::vector<RegionMotion> seen;
+    std::vector<motion::RegionMotion> seen;
     for (size_t i = 1; i < labelOf.size(); ++i) {
       if (labelOf[i] == 0) continue;
       labelOf[i] = static_cast<uint16_t>(++labels->count);
-      seen.push_back(i <= motions.size() ? motions[i - 1] : RegionMotion{});
+      seen.push_back(i <= motions.size() ? motions[i - 1] : motion::RegionMotion{});
     }
     for (int y = 0; y < size_.height; ++y)
       for (int x = 0; x < size_.width; ++x) labels->ids.at(x, y) = labelOf[labels->ids.at(x, y)];
     const Context context{std::make_shared<const Executor>(1), nullptr};
-    auto motion = std::make_shared<Motion>();
+    auto motion = std::make_shared<motion::Motion>();
     motion->size = size_;
     motion->status = Status::Ok;
-    motion->graph = *makeGraphStage(context)->process(labels, {});
+    motion->graph = *graph::makeStage(context)->process(labels, {});
     motion->regions = seen;
     return process(motion);
   }
-  std::shared_ptr<const Objects> skip() {
-    auto motion = std::make_shared<Motion>();
+  std::shared_ptr<const objects::Objects> skip() {
+    auto motion = std::make_shared<motion::Motion>();
     motion->size = size_;
     return process(motion);
   }
-  ObjectStage& stage() { return *stage_; }
+  objects::Stage& stage() { return *stage_; }
   void wait(int64_t ns) { time_.ns += ns; }
   void forgetTime() { time_.isKnown = false; }
 
@@ -84,17 +85,17 @@ class BodyScene {
         pixel[2] = body.colour.blue;
       }
   }
-  std::shared_ptr<const Objects> process(std::shared_ptr<const Motion> motion) {
+  std::shared_ptr<const objects::Objects> process(std::shared_ptr<const motion::Motion> motion) {
     auto result = stage_->process(std::move(motion), {}, time_);
     EXPECT_TRUE(result);
     time_.ns += kStepNs;
     return *result;
   }
   Size size_;
-  Scope scope_;
+  segmentation::Scope scope_;
   FrameTime time_{0, true};
-  std::unique_ptr<ObjectStage> stage_ =
-      makeObjectStage({std::make_shared<const Executor>(1), nullptr});
+  std::unique_ptr<objects::Stage> stage_ =
+      objects::makeStage({std::make_shared<const Executor>(1), nullptr});
 };
 
 }  // namespace rg

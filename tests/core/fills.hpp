@@ -2,8 +2,8 @@
 // Pictures that are hard on vectors of bytes.
 #pragma once
 
-#include "core/image.hpp"
-#include "core/pixel.hpp"
+#include "core/base/memory/image.hpp"
+#include "core/base/pixel.hpp"
 
 #include <cstdint>
 

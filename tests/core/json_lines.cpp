@@ -12,8 +12,8 @@
 namespace rg {
 namespace {
 
-Object makeObject(uint64_t id, ObjectState state) {
-  Object object;
+objects::Object makeObject(uint64_t id, objects::ObjectState state) {
+  objects::Object object;
   object.id = id;
   object.state = state;
   object.box = {static_cast<int>(id) * 7 - 20, -3, 12, 30};
@@ -30,27 +30,28 @@ Object makeObject(uint64_t id, ObjectState state) {
   return object;
 }
 
-Objects makeObjects() {
-  Objects objects;
+objects::Objects makeObjects() {
+  objects::Objects objects;
   objects.size = {320, 240};
   objects.status = Status::Ok;
   objects.cameraDx = -5;
   uint64_t id = 0;
-  for (const auto state : {ObjectState::New, ObjectState::Tracked, ObjectState::Stopped,
-                           ObjectState::Occluded, ObjectState::Lost})
+  for (const auto state :
+       {objects::ObjectState::New, objects::ObjectState::Tracked, objects::ObjectState::Stopped,
+        objects::ObjectState::Occluded, objects::ObjectState::Lost})
     objects.objects.push_back(makeObject(++id, state));
-  objects.events = {{EventKind::ObjectNew, {1}},
-                    {EventKind::ObjectEnd, {5}},
-                    {EventKind::Merge, {2, 3}},
-                    {EventKind::Split, {3, 4}},
-                    {EventKind::SceneChanged, {}}};
+  objects.events = {{objects::EventKind::ObjectNew, {1}},
+                    {objects::EventKind::ObjectEnd, {5}},
+                    {objects::EventKind::Merge, {2, 3}},
+                    {objects::EventKind::Split, {3, 4}},
+                    {objects::EventKind::SceneChanged, {}}};
   return objects;
 }
 
 /// Numbers as far out as their types go.
-Objects makeExtremes() {
-  Objects objects = makeObjects();
-  Object& object = objects.objects[1];
+objects::Objects makeExtremes() {
+  objects::Objects objects = makeObjects();
+  objects::Object& object = objects.objects[1];
   object.id = std::numeric_limits<uint64_t>::max();
   object.box = {-1'000'000, 1'000'000, 1'000'000, 0};
   object.areaPx = std::numeric_limits<uint32_t>::max();
@@ -64,16 +65,17 @@ Objects makeExtremes() {
 constexpr auto kLatest = std::numeric_limits<uint64_t>::max();
 
 /// Three regions: 1 and 2 are merged, 3 moves otherwise.
-Objects makeGraph(uint32_t areaPx, int32_t motion, int64_t energy) {
-  auto graph = std::make_shared<Graph>();
+objects::Objects makeGraph(uint32_t areaPx, int32_t motion, int64_t energy) {
+  auto graph = std::make_shared<graph::Graph>();
   graph->regions = {{areaPx, {0, 0, 12, 30}, 1500, 3900, {1, 2, 255}},
                     {areaPx, {12, 0, 1, 1}, 3100, 0, {}},
                     {areaPx, {20, 20, 300, 220}, 43000, 33000, {9, 9, 9}}};
   graph->arcs = {{1, 2, 1, 255}, {2, 3, areaPx, areaPx}};
-  auto regions = std::make_shared<Motion>();
+  auto regions = std::make_shared<motion::Motion>();
   regions->graph = graph;
-  regions->regions = {{0, 0, 0, 0}, {motion, -motion, 0, 128}, {-motion, 5, 0, kFullReliability}};
-  Objects objects;
+  regions->regions = {
+      {0, 0, 0, 0}, {motion, -motion, 0, 128}, {-motion, 5, 0, motion::kFullReliability}};
+  objects::Objects objects;
   objects.size = {320, 240};
   objects.status = Status::Ok;
   objects.motion = regions;
@@ -85,8 +87,8 @@ Objects makeGraph(uint32_t areaPx, int32_t motion, int64_t energy) {
 }
 
 /// The third region is ground.
-Objects makeGrounded(int64_t energy) {
-  Objects objects = makeGraph(100, 20, 700);
+objects::Objects makeGrounded(int64_t energy) {
+  objects::Objects objects = makeGraph(100, 20, 700);
   objects.groundGroup = 1;
   objects.ground = {{energy, 0}, {-energy, 256}, {-energy, energy}};
   return objects;
@@ -108,7 +110,7 @@ void printObjects() {
   using text::Contours;
   std::string out;
   text::appendJson(out, {}, {1, {1, 1}, {}, {}}, Contours::Omit);
-  Objects objects = makeObjects();
+  objects::Objects objects = makeObjects();
   for (const auto status : {Status::Ok, Status::Training, Status::Skipped}) {
     objects.status = status;
     text::appendJson(out, objects, {2, {320, 240}, 40'000'000, {}}, Contours::Omit);

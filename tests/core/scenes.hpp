@@ -2,8 +2,8 @@
 // Pictures and label maps made in memory for the tests of stages 2 to 4.
 #pragma once
 
-#include "core/region_graph.hpp"
-#include "core/segmentation.hpp"
+#include "core/graph/graph.hpp"
+#include "core/segmentation/segmentation.hpp"
 
 #include <gtest/gtest.h>
 
@@ -71,9 +71,10 @@ inline std::shared_ptr<const Picture> colourNoise(Size size, unsigned seed) {
 }
 
 /// A label map as hsvsegment would publish it; the labels used must be 1 … count.
-inline std::shared_ptr<const Labels> label(std::shared_ptr<const Picture> picture, uint32_t count,
-                                           const std::function<int(int, int)>& labelAt) {
-  auto labels = std::make_shared<Labels>();
+inline std::shared_ptr<const segmentation::Labels> label(
+    std::shared_ptr<const Picture> picture, uint32_t count,
+    const std::function<int(int, int)>& labelAt) {
+  auto labels = std::make_shared<segmentation::Labels>();
   labels->size = picture->size();
   labels->status = Status::Ok;
   labels->picture = std::move(picture);

@@ -2,7 +2,7 @@
 // Runs a test once for each SIMD target of this machine, and for one to four threads.
 #pragma once
 
-#include "core/executor.hpp"
+#include "core/base/memory/executor.hpp"
 
 #include <gtest/gtest.h>
 #include <hwy/targets.h>

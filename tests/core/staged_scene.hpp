@@ -3,8 +3,8 @@
 // that may be pushed.
 #pragma once
 
-#include "core/background.hpp"
-#include "core/pixel.hpp"
+#include "core/background/background.hpp"
+#include "core/base/pixel.hpp"
 #include "tests/support/text_picture.hpp"
 
 #include <gtest/gtest.h>
@@ -40,19 +40,19 @@ class StagedScene {
   static constexpr Size kSize{160, 120};
   static constexpr int64_t kFrameNs = 40'000'000;
 
-  explicit StagedScene(const Stage& stage, BackgroundParams params = {})
+  explicit StagedScene(const Stage& stage, background::Params params = {})
       : scene_(stage),
-        stage_(makeBackgroundStage({std::make_shared<const Executor>(1), nullptr})),
+        stage_(background::makeStage({std::make_shared<const Executor>(1), nullptr})),
         params_(std::move(params)) {}
 
-  std::shared_ptr<const Foreground> show(const Take& take) {
+  std::shared_ptr<const background::Foreground> show(const Take& take) {
     const auto picture = makePicture(kSize, [&](int x, int y) { return pixel(take, x, y); });
     auto result = stage_->process(picture, params_, {frame_ * kFrameNs, true});
     ++frame_;
     EXPECT_TRUE(result);
     return *result;
   }
-  std::shared_ptr<const Foreground> showFor(int frames, const Take& take) {
+  std::shared_ptr<const background::Foreground> showFor(int frames, const Take& take) {
     for (int i = 1; i < frames; ++i) show(take);
     return show(take);
   }
@@ -95,8 +95,8 @@ class StagedScene {
   }
 
   Stage scene_;
-  std::unique_ptr<BackgroundStage> stage_;
-  BackgroundParams params_;
+  std::unique_ptr<background::Stage> stage_;
+  background::Params params_;
   int frame_ = 0;
 };
 
@@ -104,13 +104,13 @@ struct Marks {
   int foundPercent = 0;     ///< Of the walker.
   double falsePercent = 0;  ///< Foreground farther than two pixels from it, of the frame.
 };
-inline Marks marksOf(const Foreground& foreground, std::optional<Box> walker) {
+inline Marks marksOf(const background::Foreground& foreground, std::optional<Box> walker) {
   const Box near =
       walker ? Box{walker->x - 2, walker->y - 2, walker->width + 4, walker->height + 4} : Box{};
   int found = 0, wrong = 0;
   for (int y = 0; y < foreground.size.height; ++y)
     for (int x = 0; x < foreground.size.width; ++x) {
-      if (foreground.mask.at(x, y) != kForegroundPixel) continue;
+      if (foreground.mask.at(x, y) != background::kForegroundPixel) continue;
       found += walker && walker->contains({x, y});
       wrong += !walker || !near.contains({x, y});
     }

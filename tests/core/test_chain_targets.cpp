@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // All five stages in a row on every SIMD target of this machine, with one to four threads: the same
 // regions, motions, energies and objects, frame by frame, as text.
-#include "core/background.hpp"
-#include "core/objects.hpp"
-#include "core/region_graph.hpp"
-#include "core/region_motion.hpp"
-#include "core/segmentation.hpp"
+#include "core/background/background.hpp"
+#include "core/graph/graph.hpp"
+#include "core/motion/motion.hpp"
+#include "core/objects/objects.hpp"
+#include "core/segmentation/segmentation.hpp"
 #include "core/text/graph.hpp"
 #include "core/text/json.hpp"
 #include "tests/core/scenes.hpp"
@@ -47,14 +47,15 @@ const std::vector<std::shared_ptr<const Picture>>& clip() {
   return frames;
 }
 
-std::vector<std::string> describe(const std::shared_ptr<const Executor>& executor, Scope scope) {
+std::vector<std::string> describe(const std::shared_ptr<const Executor>& executor,
+                                  segmentation::Scope scope) {
   const Context context{executor, nullptr};
-  const auto background = makeBackgroundStage(context);
-  const auto segmentation = makeSegmentationStage(context);
-  const auto graph = makeGraphStage(context);
-  const auto motion = makeMotionStage(context);
-  const auto objects = makeObjectStage(context);
-  SegmentationParams params;
+  const auto background = background::makeStage(context);
+  const auto segmentation = segmentation::makeStage(context);
+  const auto graph = graph::makeStage(context);
+  const auto motion = motion::makeStage(context);
+  const auto objects = objects::makeStage(context);
+  segmentation::Params params;
   params.scope = scope;
   std::vector<std::string> lines;
   for (int frame = 0; frame < kFrames; ++frame) {
@@ -72,7 +73,7 @@ std::vector<std::string> describe(const std::shared_ptr<const Executor>& executo
   return lines;
 }
 
-class ChainTargets : public testing::TestWithParam<Scope> {};
+class ChainTargets : public testing::TestWithParam<segmentation::Scope> {};
 
 TEST_P(ChainTargets, EveryTargetAndThreadCountSaysTheSame) {
   const auto expected = describe(std::make_shared<const Executor>(1), GetParam());
@@ -86,7 +87,9 @@ TEST_P(ChainTargets, EveryTargetAndThreadCountSaysTheSame) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scopes, ChainTargets,
-                         testing::Values(Scope::Frame, Scope::Foreground, Scope::Areas));
+                         testing::Values(segmentation::Scope::Frame,
+                                         segmentation::Scope::Foreground,
+                                         segmentation::Scope::Areas));
 
 }  // namespace
 }  // namespace rg

@@ -2,8 +2,8 @@
 // What the stages 2 to 5 keep: at most kBytesPerPixel · width · height + kFixedBytes, and
 // kBytesPerRegion for each region that they may make, whatever the picture, results in use
 // included.
-#include "core/objects.hpp"
-#include "core/pixel.hpp"
+#include "core/base/pixel.hpp"
+#include "core/objects/objects.hpp"
 #include "tests/core/scenes.hpp"
 
 #include <algorithm>
@@ -48,14 +48,14 @@ TEST(StageMemory, StaysWithinTheBoundOnTheWorstFrames) {
         }));
       const size_t before = bytesInUse();
       const Context context = contextWith(2);
-      const auto segmentation = makeSegmentationStage(context);
-      const auto graphs = makeGraphStage(context);
-      const auto motions = makeMotionStage(context);
-      const auto objects = makeObjectStage(context);
-      std::shared_ptr<const Objects> last;
+      const auto segmentation = segmentation::makeStage(context);
+      const auto graphs = graph::makeStage(context);
+      const auto motions = motion::makeStage(context);
+      const auto objects = objects::makeStage(context);
+      std::shared_ptr<const objects::Objects> last;
       for (const auto& picture : pictures) {
-        const auto labels =
-            *segmentation->process(picture, nullptr, {Scope::Frame, 2, 1, kMostRegions});
+        const auto labels = *segmentation->process(
+            picture, nullptr, {segmentation::Scope::Frame, 2, 1, kMostRegions});
         last = *objects->process(*motions->process(*graphs->process(labels, {}), {}), {}, {});
       }
       const size_t grown = bytesInUse() - before;

@@ -20,10 +20,10 @@ Box randomBox(Bytes& bytes) {
           bytes.take<uint16_t>()};
 }
 
-Object randomObject(uint64_t id, Bytes& bytes) {
-  Object object;
+objects::Object randomObject(uint64_t id, Bytes& bytes) {
+  objects::Object object;
   object.id = id;
-  object.state = static_cast<ObjectState>(bytes.between(0, 4));
+  object.state = static_cast<objects::ObjectState>(bytes.between(0, 4));
   object.box = randomBox(bytes);
   object.areaPx = bytes.take<uint32_t>();
   object.centroidX = bytes.take<int32_t>();
@@ -39,8 +39,8 @@ Object randomObject(uint64_t id, Bytes& bytes) {
   return object;
 }
 
-std::shared_ptr<const Graph> randomGraph(Size size, Bytes& bytes) {
-  auto graph = std::make_shared<Graph>();
+std::shared_ptr<const graph::Graph> randomGraph(Size size, Bytes& bytes) {
+  auto graph = std::make_shared<graph::Graph>();
   graph->size = size;
   graph->status = Status::Ok;
   for (int i = bytes.between(0, 6); i > 0; --i)
@@ -55,11 +55,11 @@ std::shared_ptr<const Graph> randomGraph(Size size, Bytes& bytes) {
   return graph;
 }
 
-Objects randomObjects(Bytes& bytes) {
-  Objects objects;
+objects::Objects randomObjects(Bytes& bytes) {
+  objects::Objects objects;
   objects.size = {bytes.between(1, 4096), bytes.between(1, 4096)};
   objects.status = static_cast<Status>(bytes.between(0, 2));
-  auto motion = std::make_shared<Motion>();
+  auto motion = std::make_shared<motion::Motion>();
   motion->size = objects.size;
   motion->graph = randomGraph(objects.size, bytes);
   motion->status = Status::Ok;
@@ -71,7 +71,7 @@ Objects randomObjects(Bytes& bytes) {
     objects.regionGroup.push_back(bytes.between(0u, 3u));
   }
   for (size_t i = 0; i < motion->graph->arcs.size(); ++i) {
-    ArcEnergy energy;
+    objects::ArcEnergy energy;
     energy.motion = bytes.take<int32_t>();
     energy.border = bytes.take<int32_t>();
     energy.arc = bytes.take<int32_t>();
@@ -84,7 +84,7 @@ Objects randomObjects(Bytes& bytes) {
     objects.objects.push_back(randomObject(id += bytes.take<uint32_t>() + uint64_t{1}, bytes));
   for (int i = bytes.between(0, 4); i > 0; --i)
     objects.events.push_back(
-        {static_cast<EventKind>(bytes.between(0, 3)), {bytes.take<uint64_t>()}});
+        {static_cast<objects::EventKind>(bytes.between(0, 3)), {bytes.take<uint64_t>()}});
   objects.cameraDx = bytes.take<int32_t>() / 1024;
   objects.cameraDy = bytes.take<int32_t>() / 1024;
   return objects;
@@ -120,7 +120,7 @@ void demandColumns(const std::string& lines, long columns) {
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   using namespace rg;
   fuzz::Bytes bytes(data, size);
-  const Objects objects = fuzz::randomObjects(bytes);
+  const objects::Objects objects = fuzz::randomObjects(bytes);
   const text::FrameStamp stamp = fuzz::randomStamp(bytes);
   std::string json, graph, mot, regions;
   text::appendJson(json, objects, stamp, text::Contours::Write);

@@ -91,11 +91,11 @@ void run(Bytes& bytes) {
   for (int i = bytes.between(1, 8); i > 0; --i) {
     BufferPtr buffer = paintScene(scene, caps.info());
     scene.advance();
-    borrow<Foreground>(buffer.get(), bytes.pick(sources).get(), bytes);
-    borrow<Labels>(buffer.get(), bytes.pick(sources).get(), bytes);
-    borrow<Graph>(buffer.get(), bytes.pick(sources).get(), bytes);
-    borrow<Motion>(buffer.get(), bytes.pick(sources).get(), bytes);
-    borrow<Objects>(buffer.get(), bytes.pick(sources).get(), bytes);
+    borrow<background::Foreground>(buffer.get(), bytes.pick(sources).get(), bytes);
+    borrow<segmentation::Labels>(buffer.get(), bytes.pick(sources).get(), bytes);
+    borrow<graph::Graph>(buffer.get(), bytes.pick(sources).get(), bytes);
+    borrow<motion::Motion>(buffer.get(), bytes.pick(sources).get(), bytes);
+    borrow<objects::Objects>(buffer.get(), bytes.pick(sources).get(), bytes);
     if (bytes.flip()) addRandomRois(buffer.get(), bytes);
     readMetas(buffer.get());
     const BufferPtr copy = transformed(buffer.get(), bytes);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // What users write: caps, properties as text, polygons, masks.
-#include "core/interest.hpp"
+#include "core/background/interest.hpp"
 #include "tests/fuzz/gst_target.hpp"
 #include "tests/fuzz/moving_scene.hpp"
 #include "tests/fuzz/set_property.hpp"
@@ -72,17 +72,18 @@ void trySetting(Bytes& bytes) {
 void tryPolygons(Bytes& bytes) {
   const Size size{bytes.between(1, 200), bytes.between(1, 200)};
   const auto text = bytes.rest();
-  const auto polygons = parsePolygons({reinterpret_cast<const char*>(text.data()), text.size()});
+  const auto polygons =
+      background::parsePolygons({reinterpret_cast<const char*>(text.data()), text.size()});
   if (!polygons) {
     if (polygons.error().message.empty()) std::abort();
     return;
   }
   Image<uint8_t> interest(size);
   interest.fill(1);
-  drawInterest(*polygons, {}, interest);
+  background::drawInterest(*polygons, {}, interest);
   for (int y = 0; y < size.height; ++y)
     for (int x = 0; x < size.width; ++x)
-      if (interest.at(x, y) != 0 && interest.at(x, y) != kInside) std::abort();
+      if (interest.at(x, y) != 0 && interest.at(x, y) != background::kInside) std::abort();
 }
 
 /// A file as the mask of an element that is running, and of one that starts with it.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "tests/fuzz/object_program.hpp"
 
-#include "core/pixel.hpp"
+#include "core/base/pixel.hpp"
 #include "tests/fuzz/cost.hpp"
 
 #include <array>
@@ -32,7 +32,7 @@ T valueOf(Result<T> result) {
   return *std::move(result);
 }
 
-void check(const Objects& objects) {
+void check(const objects::Objects& objects) {
   const auto count = static_cast<uint16_t>(objects.objects.size());
   demand(objects.slots.size() == objects.size, "slots have the frame's size");
   for (int y = 0; y < objects.size.height; ++y)
@@ -51,9 +51,9 @@ void check(const Objects& objects) {
 
 ObjectProgram::ObjectProgram(Bytes& bytes)
     : bytes_(bytes), context_{std::make_shared<const Executor>(1), nullptr} {
-  graphs_ = makeGraphStage(context_);
-  objects_ = makeObjectStage(context_);
-  scope_ = static_cast<Scope>(bytes_.between(0, 2));
+  graphs_ = graph::makeStage(context_);
+  objects_ = objects::makeStage(context_);
+  scope_ = static_cast<segmentation::Scope>(bytes_.between(0, 2));
   connectivity_ = bytes_.flip() ? Connectivity::Eight : Connectivity::Four;
   startScene();
 }
@@ -116,7 +116,7 @@ uint32_t ObjectProgram::rawLabelAt(int x, int y) const {
     const int part = atY * thing.parts / thing.height;
     return static_cast<uint32_t>(1 + i * 8 + static_cast<size_t>(part)) << 20;
   }
-  if (scope_ != Scope::Frame && pattern_ == Pattern::Things) return 0;
+  if (scope_ != segmentation::Scope::Frame && pattern_ == Pattern::Things) return 0;
   switch (pattern_) {
     case Pattern::Blocks:
       return 1 + hashAt(x / block_, y / block_, seed_) % 997;
@@ -131,9 +131,9 @@ uint32_t ObjectProgram::rawLabelAt(int x, int y) const {
   }
 }
 
-std::shared_ptr<const Labels> ObjectProgram::makeLabels() {
+std::shared_ptr<const segmentation::Labels> ObjectProgram::makeLabels() {
   std::vector<uint8_t> levels(static_cast<size_t>(size_.area()));
-  auto labels = std::make_shared<Labels>();
+  auto labels = std::make_shared<segmentation::Labels>();
   labels->size = size_;
   labels->status = Status::Ok;
   labels->scope = scope_;
@@ -145,7 +145,7 @@ std::shared_ptr<const Labels> ObjectProgram::makeLabels() {
       const uint32_t raw = rawLabelAt(x, y);
       levels[i] = static_cast<uint8_t>(raw * 37 + hashAt(x / 2, y / 2, seed_) % 16);
       uint16_t& label = labels->ids.at(x, y);
-      label = kNoRegion;
+      label = segmentation::kNoRegion;
       if (raw == 0 || numbers.size() == kMostLabels) continue;
       label = numbers.try_emplace(raw, static_cast<uint16_t>(numbers.size() + 1)).first->second;
     }
@@ -155,30 +155,32 @@ std::shared_ptr<const Labels> ObjectProgram::makeLabels() {
   picture->load(valueOf(Frame::make({PixelFormat::Gray8, size_}, std::array{plane})),
                 *context_.cpu);
   labels->picture = picture;
-  if (scope_ != Scope::Frame) {
-    auto foreground = std::make_shared<Foreground>();
+  if (scope_ != segmentation::Scope::Frame) {
+    auto foreground = std::make_shared<background::Foreground>();
     foreground->size = size_;
     foreground->status = Status::Ok;
     foreground->picture = picture;
     foreground->mask.resize(size_);
     for (int y = 0; y < size_.height; ++y)
       for (int x = 0; x < size_.width; ++x)
-        foreground->mask.at(x, y) =
-            labels->ids.at(x, y) != kNoRegion ? kForegroundPixel : kBackgroundPixel;
+        foreground->mask.at(x, y) = labels->ids.at(x, y) != segmentation::kNoRegion
+                                        ? background::kForegroundPixel
+                                        : background::kBackgroundPixel;
     foreground->extent = boundsOf(size_);
     labels->foreground = foreground;
   }
   return labels;
 }
 
-std::shared_ptr<const Motion> ObjectProgram::makeMotion(std::shared_ptr<const Graph> graph) {
-  auto motion = std::make_shared<Motion>();
+std::shared_ptr<const motion::Motion> ObjectProgram::makeMotion(
+    std::shared_ptr<const graph::Graph> graph) {
+  auto motion = std::make_shared<motion::Motion>();
   motion->size = graph->size;
   const uint8_t kind = bytes_.take();
   motion->status = kind % 16 == 0 ? Status::Skipped : Status::Ok;
   const int32_t dx = bytes_.take<int8_t>(), dy = bytes_.take<int8_t>();
   for (size_t i = 0; i < graph->regions.size(); ++i) {
-    RegionMotion of{dx, dy, 100, kFullReliability};
+    motion::RegionMotion of{dx, dy, 100, motion::kFullReliability};
     const uint32_t hash = hashAt(static_cast<int>(i), frame_, seed_);
     if (kind % 3 == 1)
       of = {dx + static_cast<int32_t>(hash % 64), dy, hash, static_cast<uint16_t>(hash % 257)};

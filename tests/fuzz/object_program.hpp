@@ -2,7 +2,7 @@
 // Frames of regions and motions, made directly, for the object stage.
 #pragma once
 
-#include "core/objects.hpp"
+#include "core/objects/objects.hpp"
 #include "tests/fuzz/bytes.hpp"
 
 #include <memory>
@@ -21,8 +21,9 @@ class ObjectProgram {
   void startScene();
   void changeParams();
   [[nodiscard]] uint32_t rawLabelAt(int x, int y) const;
-  [[nodiscard]] std::shared_ptr<const Labels> makeLabels();
-  [[nodiscard]] std::shared_ptr<const Motion> makeMotion(std::shared_ptr<const Graph> graph);
+  [[nodiscard]] std::shared_ptr<const segmentation::Labels> makeLabels();
+  [[nodiscard]] std::shared_ptr<const motion::Motion> makeMotion(
+      std::shared_ptr<const graph::Graph> graph);
   void processFrame();
 
   struct Thing {
@@ -32,10 +33,10 @@ class ObjectProgram {
 
   Bytes& bytes_;
   Context context_;
-  std::unique_ptr<GraphStage> graphs_;
-  std::unique_ptr<ObjectStage> objects_;
-  ObjectParams params_;
-  Scope scope_ = Scope::Frame;
+  std::unique_ptr<graph::Stage> graphs_;
+  std::unique_ptr<objects::Stage> objects_;
+  objects::Params params_;
+  segmentation::Scope scope_ = segmentation::Scope::Frame;
   Connectivity connectivity_ = Connectivity::Four;
   Pattern pattern_ = Pattern::Things;
   Size size_{64, 48};

@@ -198,7 +198,7 @@ TEST(BadCaps, LargerThanTheFramesAreCountedNotBelieved) {
   for (int i = 0; i < 5; ++i) {
     const BufferPtr out = chain.pass(busyFrame(kUsual, index++));
     ASSERT_TRUE(out);
-    EXPECT_EQ(findResult<Objects>(out.get())->status, Status::Skipped);
+    EXPECT_EQ(findResult<objects::Objects>(out.get())->status, Status::Skipped);
   }
   GstElement* element = chain.element("bgremove");
   guint64 bad = 0;

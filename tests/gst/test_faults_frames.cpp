@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Memory that is short, locked, shared or scarce, and pictures that are worst, with objects in
 // view.
-#include "core/pixel.hpp"
+#include "core/base/pixel.hpp"
 #include "gst/meta/result_meta.hpp"
 #include "tests/support/busy_scene.hpp"
 
@@ -66,7 +66,8 @@ TEST(FrameSizes, OfEveryLengthInRandomOrder) {
     ASSERT_TRUE(out);
     bad += bytes < whole;
     EXPECT_EQ(badBuffers(chain, "bgremove"), bad) << bytes;
-    EXPECT_EQ(findResult<Foreground>(out.get())->status == Status::Skipped, bytes < whole);
+    EXPECT_EQ(findResult<background::Foreground>(out.get())->status == Status::Skipped,
+              bytes < whole);
   }
   EXPECT_TRUE(showObjects(chain, index));
 }
@@ -283,7 +284,7 @@ TEST(WorstPictures, KeepWithinTheRegionsThatAreAllowed) {
                                                     return static_cast<uint8_t>(level(x, y, index));
                                                   }));
         ASSERT_TRUE(out);
-        EXPECT_LE(findResult<Labels>(out.get())->count, most);
+        EXPECT_LE(findResult<segmentation::Labels>(out.get())->count, most);
       }
     }
     EXPECT_EQ(chain.complaint(GST_MESSAGE_ERROR), "");

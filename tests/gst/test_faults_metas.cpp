@@ -114,21 +114,21 @@ void expectSurvived(const char* line, const std::shared_ptr<const Payload>& resu
 }
 
 TEST(OurMetas, OfAnotherSizeAreSurvived) {
-  const Object far = testing::object(UINT64_MAX, {1 << 25, -(1 << 25), 1 << 20, 1 << 20});
+  const objects::Object far = testing::object(UINT64_MAX, {1 << 25, -(1 << 25), 1 << 20, 1 << 20});
   const auto objects = testing::objects({31, 17}, {testing::object(1, {3, 4, 9, 9}), far});
   const auto foreground = testing::foreground({31, 17}, {3, 4, 9, 5});
   for (const Caps& caps : {Caps{"BGRx", 1, 1}, Caps{"I420", 64, 48}, Caps{"GRAY8", 200, 3}}) {
     for (const char* line :
          {"regionwrite location=/dev/null", "regionwrite location=/dev/null format=mot",
           "regionmask source=objects", "hsvsegment scope=frame"})
-      expectSurvived<Objects>(line, objects, caps);
+      expectSurvived<objects::Objects>(line, objects, caps);
     for (const char* line : {"hsvsegment scope=foreground", "hsvsegment scope=areas",
                              "regionmask source=foreground", "bgremove"})
-      expectSurvived<Foreground>(line, foreground, caps);
+      expectSurvived<background::Foreground>(line, foreground, caps);
     if (!gst_element_factory_find("regionoverlay")) continue;
-    expectSurvived<Objects>("regionoverlay", objects, caps);
-    expectSurvived<Foreground>("regionoverlay background=black", foreground, caps);
-    expectSurvived<Graph>("regionoverlay graph=true", testing::graph({31, 17}), caps);
+    expectSurvived<objects::Objects>("regionoverlay", objects, caps);
+    expectSurvived<background::Foreground>("regionoverlay background=black", foreground, caps);
+    expectSurvived<graph::Graph>("regionoverlay graph=true", testing::graph({31, 17}), caps);
   }
 }
 
@@ -157,11 +157,11 @@ TEST(OurMetas, OfAScaledStreamAreFollowedByTheLaterStages) {
 
 /// Ids beyond what a GstVideoRegionOfInterestMeta holds come out, and nothing is lost by it.
 TEST(OurMetas, LargeIdsAndAgesAreTold) {
-  Object object = testing::object(UINT64_MAX, {3, 4, 9, 9});
+  objects::Object object = testing::object(UINT64_MAX, {3, 4, 9, 9});
   object.ageFrames = UINT32_MAX;
   object.parents = {UINT64_MAX - 1, UINT64_MAX};
   BufferPtr buffer(gst_buffer_new());
-  attachResult<Objects>(buffer.get(), testing::objects({31, 17}, {object}));
+  attachResult<objects::Objects>(buffer.get(), testing::objects({31, 17}, {object}));
   GstRegionObjectsMeta* meta = gst_buffer_get_region_objects_meta(buffer.get());
   ASSERT_TRUE(meta);
   GstRegionObject told{};

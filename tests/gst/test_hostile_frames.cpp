@@ -154,8 +154,10 @@ TEST(HostileFrame, PaddedRowsGiveWhatPackedRowsGive) {
     const BufferPtr a = packed.pass(std::move(plain));
     const BufferPtr b = padded.pass(std::move(wide));
     EXPECT_EQ(testing::bytesOf(b.get()), before);
-    const auto maskA = findResult<Foreground>(a.get()), maskB = findResult<Foreground>(b.get());
-    const auto idsA = findResult<Labels>(a.get()), idsB = findResult<Labels>(b.get());
+    const auto maskA = findResult<background::Foreground>(a.get()),
+               maskB = findResult<background::Foreground>(b.get());
+    const auto idsA = findResult<segmentation::Labels>(a.get()),
+               idsB = findResult<segmentation::Labels>(b.get());
     ASSERT_EQ(idsA->count, idsB->count);
     EXPECT_EQ(testing::digestOf(*maskA), testing::digestOf(*maskB));
     EXPECT_EQ(testing::digestOf(*idsA), testing::digestOf(*idsB));

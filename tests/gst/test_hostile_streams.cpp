@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Segments, times and metas that no well-behaved source sends, with a thing that moves in view.
 // A critical message of GLib fails any test here.
-#include "core/objects.hpp"
+#include "core/objects/objects.hpp"
 #include "gst/meta/result_meta.hpp"
 #include "gst/support/foreign_enum.hpp"
 #include "tests/support/harness.hpp"
@@ -132,11 +132,12 @@ int framesWithObjects(Chain& chain, const Times& times) {
   int count = 0;
   for (int i = 0; i < 40; ++i) {
     const BufferPtr out = chain.pass(frameAt(kCaps, i, times.at(static_cast<guint64>(i))));
-    const auto objects = out ? findResult<Objects>(out.get()) : nullptr;
-    count += objects && std::any_of(objects->objects.begin(), objects->objects.end(),
-                                    [](const Object& o) { return isListed(o.state); })
-                 ? 1
-                 : 0;
+    const auto objects = out ? findResult<objects::Objects>(out.get()) : nullptr;
+    count +=
+        objects && std::any_of(objects->objects.begin(), objects->objects.end(),
+                               [](const objects::Object& o) { return objects::isListed(o.state); })
+            ? 1
+            : 0;
   }
   return count;
 }
@@ -163,9 +164,10 @@ TEST(HostileMetas, AResultAddedByItsNameOnlySaysWhatASkippedFrameSays) {
   const auto add = [&](const GstMetaInfo* info) {
     return gst_buffer_add_meta(buffer.get(), info, nullptr);
   };
-  auto* foreground = reinterpret_cast<GstRegionForegroundMeta*>(add(metaInfo<Foreground>()));
-  auto* labels = reinterpret_cast<GstRegionLabelsMeta*>(add(metaInfo<Labels>()));
-  auto* objects = reinterpret_cast<GstRegionObjectsMeta*>(add(metaInfo<Objects>()));
+  auto* foreground =
+      reinterpret_cast<GstRegionForegroundMeta*>(add(metaInfo<background::Foreground>()));
+  auto* labels = reinterpret_cast<GstRegionLabelsMeta*>(add(metaInfo<segmentation::Labels>()));
+  auto* objects = reinterpret_cast<GstRegionObjectsMeta*>(add(metaInfo<objects::Objects>()));
   EXPECT_EQ(gst_region_foreground_meta_get_status(foreground, nullptr, nullptr),
             GST_REGION_STATUS_SKIPPED);
   GstRegionPlane plane;

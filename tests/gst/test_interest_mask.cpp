@@ -62,7 +62,7 @@ class LeftHalf {
 int rightBorder(Chain& chain, int& index, int side = 16) {
   BufferPtr out;
   for (const int x : {-100, -100, 24}) out = chain.pass(paint({}, index++, square(x, 16, side)));
-  const auto foreground = findResult<Foreground>(out.get());
+  const auto foreground = findResult<background::Foreground>(out.get());
   int right = 0;
   for (const Box& area : foreground->areas) right = std::max(right, area.right());
   return right;
@@ -242,11 +242,11 @@ TEST(ScopeAreas, GivesRegionsInAndAroundTheAreasOnly) {
   int index = 0;
   learnWall(chain, index);
   const BufferPtr out = chain.pass(paint({}, index, square(10, 10, 16)));
-  const auto labels = findResult<Labels>(out.get());
-  EXPECT_EQ(labels->scope, Scope::Areas);
-  EXPECT_NE(labels->ids.at(18, 18), kNoRegion);
-  EXPECT_NE(labels->ids.at(6, 18), kNoRegion);
-  EXPECT_EQ(labels->ids.at(60, 40), kNoRegion);
+  const auto labels = findResult<segmentation::Labels>(out.get());
+  EXPECT_EQ(labels->scope, segmentation::Scope::Areas);
+  EXPECT_NE(labels->ids.at(18, 18), segmentation::kNoRegion);
+  EXPECT_NE(labels->ids.at(6, 18), segmentation::kNoRegion);
+  EXPECT_EQ(labels->ids.at(60, 40), segmentation::kNoRegion);
 }
 
 }  // namespace

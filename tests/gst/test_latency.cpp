@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // mrfmerge latency=…: frames are held back, and none is lost.
-#include "core/objects.hpp"
+#include "core/objects/objects.hpp"
 #include "gst/meta/result_meta.hpp"
 #include "tests/support/harness.hpp"
 
@@ -46,7 +46,7 @@ std::vector<BufferPtr> pushed(Chain& chain, int frames) {
 void expectInOrder(const std::vector<BufferPtr>& buffers) {
   for (size_t i = 0; i < buffers.size(); ++i) {
     EXPECT_EQ(GST_BUFFER_PTS(buffers[i].get()), i * 40 * GST_MSECOND);
-    EXPECT_TRUE(findResult<Objects>(buffers[i].get()));
+    EXPECT_TRUE(findResult<objects::Objects>(buffers[i].get()));
   }
 }
 
@@ -192,9 +192,9 @@ int firstTold(const std::string& property) {
   for (BufferPtr& buffer : pulled(chain)) buffers.push_back(std::move(buffer));
   EXPECT_EQ(buffers.size(), 60u);
   for (size_t i = 0; i < buffers.size(); ++i) {
-    const auto objects = findResult<Objects>(buffers[i].get());
+    const auto objects = findResult<objects::Objects>(buffers[i].get());
     if (std::any_of(objects->objects.begin(), objects->objects.end(),
-                    [](const Object& object) { return isListed(object.state); }))
+                    [](const objects::Object& object) { return objects::isListed(object.state); }))
       return static_cast<int>(i);
   }
   return -1;

@@ -13,8 +13,8 @@ namespace {
 
 using testing::BufferPtr;
 
-std::shared_ptr<Graph> twoRegions() {
-  auto graph = std::make_shared<Graph>();
+std::shared_ptr<graph::Graph> twoRegions() {
+  auto graph = std::make_shared<graph::Graph>();
   graph->size = {8, 4};
   graph->status = Status::Ok;
   graph->regions = {{12, {0, 0, 4, 3}, 384, 256, {1, 2, 3}},
@@ -26,7 +26,7 @@ std::shared_ptr<Graph> twoRegions() {
 TEST(GraphMeta, TellsRegionsAndArcs) {
   const BufferPtr buffer(gst_buffer_new());
   EXPECT_EQ(gst_buffer_get_region_graph_meta(buffer.get()), nullptr);
-  attachResult<Graph>(buffer.get(), twoRegions());
+  attachResult<graph::Graph>(buffer.get(), twoRegions());
   GstRegionGraphMeta* meta = gst_buffer_get_region_graph_meta(buffer.get());
   ASSERT_NE(meta, nullptr);
   gint width = 0, height = 0;
@@ -52,9 +52,9 @@ TEST(GraphMeta, TellsRegionsAndArcs) {
 
 TEST(MotionMeta, TellsPixelsAndShares) {
   const BufferPtr buffer(gst_buffer_new());
-  auto motion = std::make_shared<Motion>();
+  auto motion = std::make_shared<motion::Motion>();
   motion->regions = {{-24, 8, 7, 128}};
-  attachResult<Motion>(buffer.get(), motion);
+  attachResult<motion::Motion>(buffer.get(), motion);
   GstRegionVector vector;
   GstRegionMotionMeta* meta = gst_buffer_get_region_motion_meta(buffer.get());
   ASSERT_TRUE(gst_region_motion_meta_get_vector(meta, 0, &vector));
@@ -65,10 +65,10 @@ TEST(MotionMeta, TellsPixelsAndShares) {
 
 TEST(ObjectsMeta, TellsObjectsParentsAndContours) {
   const BufferPtr buffer(gst_buffer_new());
-  auto objects = std::make_shared<Objects>();
-  Object object;
+  auto objects = std::make_shared<objects::Objects>();
+  objects::Object object;
   object.id = 7;
-  object.state = ObjectState::Stopped;
+  object.state = objects::ObjectState::Stopped;
   object.box = {-2, 3, 10, 20};
   object.centroidX = 40;
   object.speedX = -32;
@@ -78,7 +78,7 @@ TEST(ObjectsMeta, TellsObjectsParentsAndContours) {
   objects->objects = {object};
   objects->regionObject = {0, 7};
   objects->cameraDx = 24;
-  attachResult<Objects>(buffer.get(), objects);
+  attachResult<objects::Objects>(buffer.get(), objects);
   GstRegionObjectsMeta* meta = gst_buffer_get_region_objects_meta(buffer.get());
   GstRegionObject out;
   ASSERT_TRUE(gst_region_objects_meta_get_object(meta, 0, &out));
@@ -104,19 +104,19 @@ TEST(ObjectsMeta, TellsObjectsParentsAndContours) {
   EXPECT_DOUBLE_EQ(dy, 0.0);
 }
 
-std::shared_ptr<Foreground> smallMask() {
-  auto foreground = std::make_shared<Foreground>();
+std::shared_ptr<background::Foreground> smallMask() {
+  auto foreground = std::make_shared<background::Foreground>();
   foreground->size = {3, 2};
   foreground->status = Status::Ok;
   foreground->mask.resize(foreground->size);
-  foreground->mask.fill(kBackgroundPixel);
-  foreground->mask.at(2, 1) = kForegroundPixel;
+  foreground->mask.fill(background::kBackgroundPixel);
+  foreground->mask.at(2, 1) = background::kForegroundPixel;
   return foreground;
 }
 
 TEST(Plane, OutlivesItsBuffer) {
   BufferPtr buffer(gst_buffer_new());
-  attachResult<Foreground>(buffer.get(), smallMask());
+  attachResult<background::Foreground>(buffer.get(), smallMask());
   GstRegionPlane plane;
   ASSERT_TRUE(gst_region_foreground_meta_map(gst_buffer_get_region_foreground_meta(buffer.get()),
                                              &plane, nullptr));
@@ -132,7 +132,7 @@ TEST(Plane, OutlivesItsBuffer) {
 
 TEST(Plane, OfASkippedFrameIsAnError) {
   const BufferPtr buffer(gst_buffer_new());
-  attachResult<Foreground>(buffer.get(), std::make_shared<Foreground>());
+  attachResult<background::Foreground>(buffer.get(), std::make_shared<background::Foreground>());
   GstRegionPlane plane;
   GError* error = nullptr;
   EXPECT_FALSE(gst_region_foreground_meta_map(gst_buffer_get_region_foreground_meta(buffer.get()),
@@ -145,9 +145,9 @@ TEST(Meta, CopiesShareOnePayloadAndFreeIt) {
   const auto payload = smallMask();
   {
     const BufferPtr buffer(gst_buffer_new());
-    attachResult<Foreground>(buffer.get(), payload);
+    attachResult<background::Foreground>(buffer.get(), payload);
     const BufferPtr copy(gst_buffer_copy(buffer.get()));
-    EXPECT_EQ(findResult<Foreground>(copy.get()).get(), payload.get());
+    EXPECT_EQ(findResult<background::Foreground>(copy.get()).get(), payload.get());
     EXPECT_EQ(payload.use_count(), 3);
   }
   EXPECT_EQ(payload.use_count(), 1);
@@ -155,18 +155,18 @@ TEST(Meta, CopiesShareOnePayloadAndFreeIt) {
 
 TEST(Meta, APartOfABufferLosesIt) {
   const BufferPtr buffer(gst_buffer_new_allocate(nullptr, 100, nullptr));
-  attachResult<Foreground>(buffer.get(), smallMask());
+  attachResult<background::Foreground>(buffer.get(), smallMask());
   const BufferPtr part(gst_buffer_copy_region(buffer.get(), GST_BUFFER_COPY_ALL, 10, 20));
-  EXPECT_EQ(findResult<Foreground>(part.get()), nullptr);
+  EXPECT_EQ(findResult<background::Foreground>(part.get()), nullptr);
 }
 
 TEST(Meta, SurvivesConversionAndScalingAndIsDroppedByCropping) {
   const auto passes = [](const char* line) {
     testing::Chain chain(line, {"BGRx", 32, 32});
     BufferPtr frame = testing::paint(chain.caps(), 0, testing::square(4, 4, 9));
-    attachResult<Foreground>(frame.get(), smallMask());
+    attachResult<background::Foreground>(frame.get(), smallMask());
     const BufferPtr out = chain.pass(std::move(frame));
-    return out && findResult<Foreground>(out.get()) != nullptr;
+    return out && findResult<background::Foreground>(out.get()) != nullptr;
   };
   EXPECT_TRUE(passes("videoconvert ! capsfilter caps=video/x-raw,format=I420"));
   EXPECT_TRUE(passes("videoscale ! capsfilter caps=video/x-raw,width=16,height=16"));

@@ -17,7 +17,7 @@ using testing::objects;
 constexpr int64_t kSecond = 1'000'000'000;
 constexpr Size kSize{640, 480};
 
-std::vector<Point> trailOf(const Trails& trails, const Object& object) {
+std::vector<Point> trailOf(const Trails& trails, const objects::Object& object) {
   std::vector<Point> points;
   trails.copy(object, points);
   return points;
@@ -37,7 +37,7 @@ TEST(Trails, ForgetWhatIsOlderThanTheirLength) {
   for (int i = 0; i < 100; ++i)
     trails.advance(*objects(kSize, {object(7, {i, 0, 2, 2})}), i * kSecond / 10, kSecond);
   const auto points = trailOf(trails, object(7, {100, 0, 2, 2}));
-  EXPECT_EQ(points.front().x, (89 + 1) * kPositionUnit);
+  EXPECT_EQ(points.front().x, (89 + 1) * objects::kPositionUnit);
   EXPECT_EQ(points.size(), 12u);
 }
 
@@ -53,7 +53,7 @@ TEST(Trails, MoveWithTheSceneUnderAMovingCamera) {
   auto list = objects(kSize, {object(7, {10, 10, 2, 2})});
   trails.advance(*list, 0, kSecond);
   auto panned = objects(kSize, {object(7, {5, 10, 2, 2})});
-  panned->cameraDx = -5 * kPositionUnit;
+  panned->cameraDx = -5 * objects::kPositionUnit;
   trails.advance(*panned, kSecond / 10, kSecond);
   const auto points = trailOf(trails, panned->objects[0]);
   for (const Point& point : points) EXPECT_EQ(point, points.back());
@@ -66,7 +66,7 @@ TEST(Trails, EndWithTheirObject) {
   EXPECT_EQ(trailOf(trails, object(7, {0, 0, 2, 2})).size(), 1u);
 }
 
-Figure figureOf(const Object& object, Size frame) {
+Figure figureOf(const objects::Object& object, Size frame) {
   Figure figure;
   layOut(object, {{kSize, frame}, {}, styleFor(frame, 1)}, {}, figure);
   return figure;
@@ -82,14 +82,15 @@ TEST(Figure, FollowsTheFramesScale) {
 TEST(Figure, WordsSayTheState) {
   const Box box{100, 100, 20, 40};
   EXPECT_EQ(figureOf(object(12, box), kSize).text, "12");
-  EXPECT_EQ(figureOf(object(12, box, ObjectState::Stopped), kSize).text, "12 stopped");
-  EXPECT_EQ(figureOf(object(12, box, ObjectState::Occluded), kSize).text, "12 occluded");
-  EXPECT_EQ(figureOf(object(12, box, ObjectState::Stopped), {160, 120}).text, "12");
+  EXPECT_EQ(figureOf(object(12, box, objects::ObjectState::Stopped), kSize).text, "12 stopped");
+  EXPECT_EQ(figureOf(object(12, box, objects::ObjectState::Occluded), kSize).text, "12 occluded");
+  EXPECT_EQ(figureOf(object(12, box, objects::ObjectState::Stopped), {160, 120}).text, "12");
 }
 
 TEST(Figure, WhatHasStoppedPointsNowhere) {
   const Box box{100, 100, 20, 40};
-  for (const auto& [state, dx] : {std::pair{ObjectState::Tracked, 8}, {ObjectState::Stopped, 0}}) {
+  for (const auto& [state, dx] :
+       {std::pair{objects::ObjectState::Tracked, 8}, {objects::ObjectState::Stopped, 0}}) {
     const Figure figure = figureOf(object(1, box, state), kSize);
     EXPECT_EQ(figure.tip.x - figure.centre.x, dx);
   }
@@ -138,8 +139,8 @@ TEST(Painter, HasNothingToDrawWithoutObjects) {
   Painter painter;
   EXPECT_FALSE(painter.paint({kSize}, {}));
   EXPECT_FALSE(painter.paint({kSize, 25, objects(kSize, {}).get()}, {}));
-  const auto hidden = objects(kSize, {object(1, {5, 5, 9, 9}, ObjectState::Lost),
-                                      object(2, {5, 5, 9, 9}, ObjectState::New)});
+  const auto hidden = objects(kSize, {object(1, {5, 5, 9, 9}, objects::ObjectState::Lost),
+                                      object(2, {5, 5, 9, 9}, objects::ObjectState::New)});
   EXPECT_FALSE(painter.paint({kSize, 25, hidden.get()}, {}));
 }
 
@@ -176,7 +177,7 @@ TEST(Painter, DrawsARectangleForEachObjectAndOverTheseEachLabel) {
 
 TEST(Painter, NeverDrawsMoreThanTheFrame) {
   Painter painter;
-  std::vector<Object> many;
+  std::vector<objects::Object> many;
   for (uint64_t id = 1; id <= 500; ++id)
     many.push_back(object(id, {-1000, -1000 + static_cast<int>(id), 3000, 3000}));
   const auto list = objects(kSize, many);
@@ -188,8 +189,8 @@ TEST(Painter, NeverDrawsMoreThanTheFrame) {
 TEST(Painter, SurvivesBoxesFarOutside) {
   Painter painter;
   constexpr int kFar = 50'000'000;
-  auto far = object(1, {kFar, -kFar, 5, 5}, ObjectState::Occluded);
-  auto huge = object(2, {-kFar, -kFar, 2 * kFar, 2 * kFar}, ObjectState::Occluded);
+  auto far = object(1, {kFar, -kFar, 5, 5}, objects::ObjectState::Occluded);
+  auto huge = object(2, {-kFar, -kFar, 2 * kFar, 2 * kFar}, objects::ObjectState::Occluded);
   far.speedX = huge.speedY = INT32_MAX;
   const auto list = objects({1, 1}, {far, huge});
   for (const Size size : {Size{1, 1}, kSize}) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The five elements together on a scene with known objects.
-#include "core/pixel.hpp"
+#include "core/base/pixel.hpp"
 #include "gst/meta/gstregiongraph.h"
 #include "gst/meta/result_meta.hpp"
 #include "tests/support/harness.hpp"
@@ -52,8 +52,9 @@ double overlap(const Box& a, const Box& b) {
   return common / (static_cast<double>(a.area() + b.area()) - common);
 }
 
-bool isSeen(const Object& object) {
-  return object.state == ObjectState::Tracked || object.state == ObjectState::Stopped;
+bool isSeen(const objects::Object& object) {
+  return object.state == objects::ObjectState::Tracked ||
+         object.state == objects::ObjectState::Stopped;
 }
 
 TEST(Pipeline, FindsTheTwoBodiesAndKeepsTheirNumbers) {
@@ -64,14 +65,14 @@ TEST(Pipeline, FindsTheTwoBodiesAndKeepsTheirNumbers) {
   for (int frame = 0; frame < kFrames; ++frame) {
     const BufferPtr out = chain.pass(testing::paint(caps, frame, scene(frame)));
     ASSERT_TRUE(out);
-    const auto objects = findResult<Objects>(out.get());
+    const auto objects = findResult<objects::Objects>(out.get());
     ASSERT_TRUE(objects);
     size_t used = 0;
     for (int which = 0; which < 2; ++which) {
       const Box truth = bodyAt(which, frame);
       if (frame < kFirstVisible + 15 || intersect(truth, {0, 0, 320, 240}) != truth) continue;
       ++expected;
-      for (const Object& object : objects->objects)
+      for (const objects::Object& object : objects->objects)
         if (isSeen(object) && overlap(object.box, truth) >= 0.5) {
           ++found;
           ++used;
@@ -97,15 +98,15 @@ TEST(Pipeline, RegionOfInterestMetasRepeatTheObjects) {
   BufferPtr out;
   for (int frame = 0; frame < 60; ++frame)
     out = chain.pass(testing::paint(caps, frame, scene(frame)));
-  const auto objects = findResult<Objects>(out.get());
+  const auto objects = findResult<objects::Objects>(out.get());
   gpointer state = nullptr;
   int count = 0;
   while (GstMeta* meta = gst_buffer_iterate_meta_filtered(
              out.get(), &state, GST_VIDEO_REGION_OF_INTEREST_META_API_TYPE)) {
     auto* roi = reinterpret_cast<GstVideoRegionOfInterestMeta*>(meta);
-    const auto object =
-        std::find_if(objects->objects.begin(), objects->objects.end(),
-                     [&](const Object& o) { return o.id == static_cast<uint64_t>(roi->id); });
+    const auto object = std::find_if(
+        objects->objects.begin(), objects->objects.end(),
+        [&](const objects::Object& o) { return o.id == static_cast<uint64_t>(roi->id); });
     ASSERT_NE(object, objects->objects.end());
     const Box visible = intersect(object->box, {0, 0, 320, 240});
     EXPECT_EQ((Box{static_cast<int>(roi->x), static_cast<int>(roi->y), static_cast<int>(roi->w),
@@ -182,9 +183,9 @@ TEST(Pipeline, AMovingCameraIsTold) {
   BufferPtr out;
   for (int frame = 0; frame < 4; ++frame)
     out = chain.pass(testing::paint(caps, frame, panned(3 * frame)));
-  const auto objects = findResult<Objects>(out.get());
-  EXPECT_NEAR(objects->cameraDx / double{kMotionUnit}, -3.0, 0.25);
-  EXPECT_NEAR(objects->cameraDy / double{kMotionUnit}, 0.0, 0.25);
+  const auto objects = findResult<objects::Objects>(out.get());
+  EXPECT_NEAR(objects->cameraDx / double{motion::kMotionUnit}, -3.0, 0.25);
+  EXPECT_NEAR(objects->cameraDy / double{motion::kMotionUnit}, 0.0, 0.25);
   const auto names = elementMessages(chain);
   EXPECT_EQ(std::count(names.begin(), names.end(), "regiongraph-background-motion"), 1);
 }

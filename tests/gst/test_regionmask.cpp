@@ -57,7 +57,7 @@ TEST(RegionMask, ForegroundIsWhiteAndShadowsAreNot) {
   const Caps caps{"I420", 7, 5};
   Chain chain("regionmask", caps);
   const BufferPtr out =
-      chain.pass(frameWith<Foreground>(caps, testing::foreground(kSize, {2, 1, 3, 2})));
+      chain.pass(frameWith<background::Foreground>(caps, testing::foreground(kSize, {2, 1, 3, 2})));
   ASSERT_TRUE(out);
   EXPECT_EQ(picture(out.get(), kSize),
             "0000000\n"
@@ -70,18 +70,19 @@ TEST(RegionMask, ForegroundIsWhiteAndShadowsAreNot) {
 TEST(RegionMask, ObjectsAreWhiteWhileTheyAreSeen) {
   const Caps caps{"GRAY8", 7, 5};
   Chain chain("regionmask source=objects", caps);
-  auto objects = testing::objects(kSize, {testing::object(1, {0, 0, 2, 1}),
-                                          testing::object(2, {2, 0, 2, 1}, ObjectState::Stopped),
-                                          testing::object(3, {4, 0, 2, 1}, ObjectState::Occluded),
-                                          testing::object(4, {0, 2, 2, 1}, ObjectState::New),
-                                          testing::object(5, {2, 2, 2, 1}, ObjectState::Lost)});
-  const BufferPtr out = chain.pass(frameWith<Objects>(caps, objects));
+  auto objects =
+      testing::objects(kSize, {testing::object(1, {0, 0, 2, 1}),
+                               testing::object(2, {2, 0, 2, 1}, objects::ObjectState::Stopped),
+                               testing::object(3, {4, 0, 2, 1}, objects::ObjectState::Occluded),
+                               testing::object(4, {0, 2, 2, 1}, objects::ObjectState::New),
+                               testing::object(5, {2, 2, 2, 1}, objects::ObjectState::Lost)});
+  const BufferPtr out = chain.pass(frameWith<objects::Objects>(caps, objects));
   ASSERT_TRUE(out);
   EXPECT_EQ(picture(out.get(), kSize), "ffff000\n0000000\n0000000\n0000000\n0000000\n");
 }
 
-std::shared_ptr<Labels> labels() {
-  auto result = std::make_shared<Labels>();
+std::shared_ptr<segmentation::Labels> labels() {
+  auto result = std::make_shared<segmentation::Labels>();
   result->size = kSize;
   result->status = Status::Ok;
   result->ids.resize(kSize);
@@ -97,7 +98,7 @@ TEST(RegionMask, LabelsHaveTheByteOrderThatDownstreamTakes) {
     Chain chain(
         std::string("regionmask source=labels ! capsfilter caps=video/x-raw,format=") + format,
         caps);
-    const BufferPtr out = chain.pass(frameWith<Labels>(caps, labels()));
+    const BufferPtr out = chain.pass(frameWith<segmentation::Labels>(caps, labels()));
     ASSERT_TRUE(out) << format;
     const auto bytes = testing::bytesOf(out.get());
     const size_t stride = bytes.size() / 5;
@@ -111,7 +112,7 @@ TEST(RegionMask, LabelsHaveTheByteOrderThatDownstreamTakes) {
 TEST(RegionMask, PngencGetsItsBigEndian) {
   const Caps caps{"RGB", 7, 5};
   Chain chain("regionmask source=labels ! pngenc", caps);
-  EXPECT_TRUE(chain.pass(frameWith<Labels>(caps, labels())));
+  EXPECT_TRUE(chain.pass(frameWith<segmentation::Labels>(caps, labels())));
   EXPECT_NE(outputCaps(chain).find("GRAY16_BE"), std::string::npos);
 }
 
@@ -120,7 +121,7 @@ TEST(RegionMask, KeepsShapeAndRateButNotTheFramesColours) {
   gst_harness_set_src_caps_str(chain.harness(),
                                "video/x-raw,format=I420,width=7,height=5,framerate=30000/1001,"
                                "pixel-aspect-ratio=16/15,colorimetry=bt601,chroma-site=mpeg2");
-  BufferPtr frame = frameWith<Foreground>(chain.caps(), testing::foreground(kSize, {}));
+  BufferPtr frame = frameWith<background::Foreground>(chain.caps(), testing::foreground(kSize, {}));
   GST_BUFFER_PTS(frame.get()) = 12345;
   GST_BUFFER_DURATION(frame.get()) = 67;
   const BufferPtr out = chain.pass(std::move(frame));
@@ -139,7 +140,7 @@ TEST(RegionMask, ScalesAResultToTheFrame) {
   const Caps caps{"GRAY8", 14, 10};
   Chain chain("regionmask", caps);
   const BufferPtr out =
-      chain.pass(frameWith<Foreground>(caps, testing::foreground(kSize, {6, 4, 1, 1})));
+      chain.pass(frameWith<background::Foreground>(caps, testing::foreground(kSize, {6, 4, 1, 1})));
   ASSERT_TRUE(out);
   const std::string text = picture(out.get(), {14, 10});
   EXPECT_EQ(std::count(text.begin(), text.end(), 'f'), 4);
@@ -149,8 +150,8 @@ TEST(RegionMask, ScalesAResultToTheFrame) {
 TEST(RegionMask, PassesRegionMetasOnButNotThoseAboutMemory) {
   const Caps caps{"GRAY8", 7, 5};
   Chain chain("regionmask", caps);
-  BufferPtr frame = frameWith<Foreground>(caps, testing::foreground(kSize, {}));
-  attachResult<Objects>(frame.get(), testing::objects(kSize, {}));
+  BufferPtr frame = frameWith<background::Foreground>(caps, testing::foreground(kSize, {}));
+  attachResult<objects::Objects>(frame.get(), testing::objects(kSize, {}));
   gst_buffer_add_video_region_of_interest_meta(frame.get(), "object", 1, 1, 2, 2);
   gsize offset[GST_VIDEO_MAX_PLANES] = {};
   gint stride[GST_VIDEO_MAX_PLANES] = {8};
@@ -158,8 +159,8 @@ TEST(RegionMask, PassesRegionMetasOnButNotThoseAboutMemory) {
                                  5, 1, offset, stride);
   const BufferPtr out = chain.pass(std::move(frame));
   ASSERT_TRUE(out);
-  EXPECT_TRUE(findResult<Foreground>(out.get()));
-  EXPECT_TRUE(findResult<Objects>(out.get()));
+  EXPECT_TRUE(findResult<background::Foreground>(out.get()));
+  EXPECT_TRUE(findResult<objects::Objects>(out.get()));
   EXPECT_TRUE(gst_buffer_get_video_region_of_interest_meta_id(out.get(), 0));
   EXPECT_FALSE(gst_buffer_get_video_meta(out.get()));
 }
@@ -168,7 +169,7 @@ TEST(RegionMask, ReadsNoPixels) {
   const Caps caps{"BGRx", 7, 5};
   Chain chain("regionmask", caps);
   BufferPtr frame(gst_buffer_new_allocate(nullptr, 3, nullptr));
-  attachResult<Foreground>(frame.get(), testing::foreground(kSize, {0, 0, 7, 5}));
+  attachResult<background::Foreground>(frame.get(), testing::foreground(kSize, {0, 0, 7, 5}));
   const BufferPtr out = chain.pass(std::move(frame));
   ASSERT_TRUE(out);
   EXPECT_EQ(picture(out.get(), kSize).substr(0, 8), "fffffff\n");
@@ -179,8 +180,8 @@ TEST(RegionMask, TakesAnyFormatAndMemory) {
                            "video/x-raw(memory:Foreign),format=NV12,width=7,height=5"}) {
     Chain chain("regionmask", Caps{"GRAY8", 7, 5});
     gst_harness_set_src_caps_str(chain.harness(), caps);
-    EXPECT_TRUE(
-        chain.pass(frameWith<Foreground>(chain.caps(), testing::foreground(kSize, {0, 0, 7, 5}))))
+    EXPECT_TRUE(chain.pass(
+        frameWith<background::Foreground>(chain.caps(), testing::foreground(kSize, {0, 0, 7, 5}))))
         << caps;
   }
 }
@@ -189,8 +190,8 @@ TEST(RegionMask, WorksOnOnePixel) {
   for (const Size size : {Size{1, 1}, Size{1, 9}, Size{9, 1}}) {
     const Caps caps{"I420", size.width, size.height};
     Chain chain("regionmask", caps);
-    const BufferPtr out =
-        chain.pass(frameWith<Foreground>(caps, testing::foreground(size, boundsOf(size))));
+    const BufferPtr out = chain.pass(
+        frameWith<background::Foreground>(caps, testing::foreground(size, boundsOf(size))));
     ASSERT_TRUE(out);
     EXPECT_EQ(testing::bytesOf(out.get())[0], 255);
   }
@@ -201,7 +202,7 @@ TEST(RegionMask, NamesTheElementThatIsMissing) {
        {std::pair{"foreground", "bgremove"}, {"labels", "hsvsegment"}, {"objects", "mrfmerge"}}) {
     const Caps caps{"GRAY8", 7, 5};
     Chain chain(std::string("regionmask source=") + source, caps);
-    EXPECT_EQ(chain.push(frameWith<Foreground>(caps, nullptr)), GST_FLOW_ERROR);
+    EXPECT_EQ(chain.push(frameWith<background::Foreground>(caps, nullptr)), GST_FLOW_ERROR);
     EXPECT_NE(chain.complaint(GST_MESSAGE_ERROR).find(std::string("add ") + producer),
               std::string::npos);
   }
@@ -211,24 +212,24 @@ TEST(RegionMask, GoesBlackWithOneWarningWhenResultsStop) {
   const Caps caps{"GRAY8", 7, 5};
   Chain chain("regionmask", caps);
   const auto white = testing::foreground(kSize, boundsOf(kSize));
-  ASSERT_TRUE(chain.pass(frameWith<Foreground>(caps, white)));
+  ASSERT_TRUE(chain.pass(frameWith<background::Foreground>(caps, white)));
   for (int i = 1; i < 4; ++i) {
-    const BufferPtr out = chain.pass(frameWith<Foreground>(caps, nullptr, i));
+    const BufferPtr out = chain.pass(frameWith<background::Foreground>(caps, nullptr, i));
     ASSERT_TRUE(out);
     EXPECT_EQ(picture(out.get(), kSize).substr(0, 8), "0000000\n");
   }
   EXPECT_NE(chain.complaint(GST_MESSAGE_WARNING).find("bgremove"), std::string::npos);
   EXPECT_EQ(chain.complaint(GST_MESSAGE_WARNING), "");
-  const BufferPtr again = chain.pass(frameWith<Foreground>(caps, white, 4));
+  const BufferPtr again = chain.pass(frameWith<background::Foreground>(caps, white, 4));
   EXPECT_EQ(picture(again.get(), kSize).substr(0, 8), "fffffff\n");
 }
 
 TEST(RegionMask, SkippedFramesAreBlack) {
   const Caps caps{"GRAY8", 7, 5};
   Chain chain("regionmask", caps);
-  auto skipped = std::make_shared<Foreground>();
+  auto skipped = std::make_shared<background::Foreground>();
   skipped->size = kSize;
-  const BufferPtr out = chain.pass(frameWith<Foreground>(caps, skipped));
+  const BufferPtr out = chain.pass(frameWith<background::Foreground>(caps, skipped));
   ASSERT_TRUE(out);
   EXPECT_EQ(picture(out.get(), kSize).find('f'), std::string::npos);
   EXPECT_EQ(chain.complaint(GST_MESSAGE_WARNING), "");
@@ -239,8 +240,8 @@ TEST(RegionMask, FollowsNewCaps) {
   for (const auto& caps : {Caps{"GRAY8", 7, 5}, Caps{"NV12", 40, 30}, Caps{"BGR", 3, 3}}) {
     chain.setCaps(caps);
     const Size size{caps.width, caps.height};
-    const BufferPtr out =
-        chain.pass(frameWith<Foreground>(caps, testing::foreground(size, boundsOf(size))));
+    const BufferPtr out = chain.pass(
+        frameWith<background::Foreground>(caps, testing::foreground(size, boundsOf(size))));
     ASSERT_TRUE(out);
     const std::string text = picture(out.get(), size);
     EXPECT_EQ(std::count(text.begin(), text.end(), 'f'), size.area());
@@ -252,14 +253,15 @@ TEST(RegionMask, AnotherSourceWhilePlayingDoesNotChangeWhatWasNegotiated) {
   Chain chain("regionmask", caps);
   GstElement* element = chain.element("regionmask");
   const auto makeFrame = [&](int index) {
-    BufferPtr frame = frameWith<Foreground>(caps, testing::foreground(kSize, {2, 1, 3, 2}), index);
-    auto labels = std::make_shared<Labels>();
+    BufferPtr frame =
+        frameWith<background::Foreground>(caps, testing::foreground(kSize, {2, 1, 3, 2}), index);
+    auto labels = std::make_shared<segmentation::Labels>();
     labels->size = kSize;
     labels->status = Status::Ok;
     labels->count = 65535;
     labels->ids.resize(kSize);
     labels->ids.fill(65535);
-    attachResult<Labels>(frame.get(), std::move(labels));
+    attachResult<segmentation::Labels>(frame.get(), std::move(labels));
     return frame;
   };
   const BufferPtr before = chain.pass(makeFrame(0));

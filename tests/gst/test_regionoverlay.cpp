@@ -26,9 +26,10 @@ BufferPtr greyFrame(const Caps& caps, int index = 0) {
   return paint(caps, index, [](int, int) { return kGrey; });
 }
 
-BufferPtr frameWith(const Caps& caps, std::shared_ptr<const Objects> result, int index = 0) {
+BufferPtr frameWith(const Caps& caps, std::shared_ptr<const objects::Objects> result,
+                    int index = 0) {
   BufferPtr buffer = greyFrame(caps, index);
-  if (result) attachResult<Objects>(buffer.get(), std::move(result));
+  if (result) attachResult<objects::Objects>(buffer.get(), std::move(result));
   return buffer;
 }
 
@@ -146,7 +147,7 @@ TEST(RegionOverlay, DrawsTheGraphWithoutObjects) {
   const Caps caps{"GRAY8", kSize.width, kSize.height};
   Chain chain("regionoverlay boxes=false ids=false trails=false vectors=false graph=true", caps);
   BufferPtr in = greyFrame(caps);
-  attachResult<Graph>(in.get(), testing::graph(kSize));
+  attachResult<graph::Graph>(in.get(), testing::graph(kSize));
   const BufferPtr out = chain.pass(std::move(in));
   ASSERT_TRUE(out);
   const Box drawn = changed(out.get(), caps);
@@ -158,11 +159,11 @@ TEST(RegionOverlay, DrawsTheMotionOfRegionsWithoutObjects) {
   const Caps caps{"GRAY8", kSize.width, kSize.height};
   Chain chain("regionoverlay", caps);
   BufferPtr in = greyFrame(caps);
-  attachResult<Graph>(in.get(), testing::graph(kSize));
-  auto motion = std::make_shared<Motion>();
+  attachResult<graph::Graph>(in.get(), testing::graph(kSize));
+  auto motion = std::make_shared<motion::Motion>();
   motion->size = kSize;
-  motion->regions = {{2 * kMotionUnit, 0, 0, kFullReliability}, {64, 64, 0, 0}};
-  attachResult<Motion>(in.get(), motion);
+  motion->regions = {{2 * motion::kMotionUnit, 0, 0, motion::kFullReliability}, {64, 64, 0, 0}};
+  attachResult<motion::Motion>(in.get(), motion);
   const BufferPtr out = chain.pass(std::move(in));
   ASSERT_TRUE(out);
   const Box drawn = changed(out.get(), caps);
@@ -194,7 +195,7 @@ TEST(RegionOverlay, BlacksOutTheBackgroundWithoutObjects) {
   const Caps caps{"GRAY8", kSize.width, kSize.height};
   Chain chain("regionoverlay background=black", caps);
   BufferPtr in = greyFrame(caps);
-  attachResult<Foreground>(in.get(), testing::foreground(kSize, {100, 60, 10, 10}));
+  attachResult<background::Foreground>(in.get(), testing::foreground(kSize, {100, 60, 10, 10}));
   const BufferPtr out = chain.pass(std::move(in));
   ASSERT_TRUE(out);
   EXPECT_EQ(pixel(out.get(), caps, 105, 65), kGrey);
@@ -266,7 +267,7 @@ TEST(RegionOverlay, DrawsOnPaddedRowsAndLeavesThePadding) {
   gint stride[GST_VIDEO_MAX_PLANES] = {kStride};
   gst_buffer_add_video_meta_full(in.get(), GST_VIDEO_FRAME_FLAG_NONE, GST_VIDEO_FORMAT_GRAY8, 64,
                                  48, 1, offset, stride);
-  attachResult<Objects>(in.get(), objects({64, 48}, {object(1, {10, 10, 54, 30})}));
+  attachResult<objects::Objects>(in.get(), objects({64, 48}, {object(1, {10, 10, 54, 30})}));
   const BufferPtr out = chain.pass(std::move(in));
   ASSERT_TRUE(out);
   const auto bytes = testing::bytesOf(out.get());

@@ -25,7 +25,7 @@ std::string story(const std::string& line) {
   for (int i = 0; i < 40; ++i) {
     const BufferPtr out =
         chain.pass(paint(caps, i, i < 10 ? square(0, 0, 0) : square(2 * (i - 10), 20, 18)));
-    const auto objects = out ? findResult<Objects>(out.get()) : nullptr;
+    const auto objects = out ? findResult<objects::Objects>(out.get()) : nullptr;
     if (!objects) return "no objects on frame " + std::to_string(i);
     text::appendJson(text, *objects, {static_cast<uint64_t>(i) + 1, {96, 64}, {}, {}},
                      text::Contours::Write);

@@ -47,9 +47,9 @@ class RegionWrite : public ::testing::Test {
   std::string path_;
 };
 
-BufferPtr frame(int index, std::shared_ptr<const Objects> objects) {
+BufferPtr frame(int index, std::shared_ptr<const objects::Objects> objects) {
   BufferPtr buffer = paint(Caps{}, index, square(1, 1, 5));
-  if (objects) attachResult<Objects>(buffer.get(), std::move(objects));
+  if (objects) attachResult<objects::Objects>(buffer.get(), std::move(objects));
   return buffer;
 }
 
@@ -65,7 +65,7 @@ TEST_F(RegionWrite, PassesTheVeryBufferItGot) {
   const BufferPtr out = chain.pass(std::move(in));
   ASSERT_EQ(out.get(), sent);
   EXPECT_EQ(testing::bytesOf(out.get()), bytes);
-  EXPECT_TRUE(findResult<Objects>(out.get()));
+  EXPECT_TRUE(findResult<objects::Objects>(out.get()));
 }
 
 TEST_F(RegionWrite, WritesALineOfJsonAsSoonAsAFrameArrives) {
@@ -100,7 +100,7 @@ TEST_F(RegionWrite, WritesRegionsUnderAHeader) {
   const std::string header = "frame,id,area,x,y,w,h,cx,cy,dx,dy,reliability,object\n";
   EXPECT_EQ(written(), header);
   BufferPtr buffer = frame(0, nullptr);
-  attachResult<Graph>(buffer.get(), testing::graph(kSize));
+  attachResult<graph::Graph>(buffer.get(), testing::graph(kSize));
   ASSERT_TRUE(chain.pass(std::move(buffer)));
   EXPECT_EQ(written(), header +
                            "1,1,1536,0,0,32,48,15.50,23.50,0.0000,0.0000,0.0000,0\n"
@@ -109,10 +109,10 @@ TEST_F(RegionWrite, WritesRegionsUnderAHeader) {
 
 TEST_F(RegionWrite, WritesTheGraphWithTheEnergyOfItsArcs) {
   Chain chain(line("format=graph"));
-  auto motion = std::make_shared<Motion>();
+  auto motion = std::make_shared<motion::Motion>();
   motion->graph = testing::graph(kSize);
   motion->regions.resize(2);
-  const std::shared_ptr<Objects> objects = oneObject();
+  const std::shared_ptr<objects::Objects> objects = oneObject();
   objects->motion = motion;
   objects->regionObject = {3, 0};
   objects->regionExpected = {3, 3};
@@ -131,7 +131,7 @@ TEST_F(RegionWrite, WritesTheGraphWithTheEnergyOfItsArcs) {
 TEST_F(RegionWrite, MapsToFramesThatWereScaled) {
   Chain chain(line("format=mot"), Caps{"GRAY8", 128, 24});
   BufferPtr buffer = paint(chain.caps(), 0, square(1, 1, 5));
-  attachResult<Objects>(buffer.get(), oneObject());
+  attachResult<objects::Objects>(buffer.get(), oneObject());
   ASSERT_TRUE(chain.pass(std::move(buffer)));
   EXPECT_EQ(written(), "1,3,20,10,16,2,1,-1,-1,-1\n");
 }

@@ -38,15 +38,15 @@ std::optional<Status> statusOf(GstBuffer* buffer, int n) {
   };
   switch (n) {
     case 0:
-      return status(findResult<Foreground>(buffer));
+      return status(findResult<background::Foreground>(buffer));
     case 1:
-      return status(findResult<Labels>(buffer));
+      return status(findResult<segmentation::Labels>(buffer));
     case 2:
-      return status(findResult<Graph>(buffer));
+      return status(findResult<graph::Graph>(buffer));
     case 3:
-      return status(findResult<Motion>(buffer));
+      return status(findResult<motion::Motion>(buffer));
     default:
-      return status(findResult<Objects>(buffer));
+      return status(findResult<objects::Objects>(buffer));
   }
 }
 
@@ -211,8 +211,8 @@ TEST_P(EveryStage, TwoInstancesDoNotDisturbEachOther) {
     const BufferPtr out = one.pass(paint(caps, i, square(3 * i, 4, 14)));
     ASSERT_TRUE(other.pass(paint(caps, i, square(40 - 5 * i, 20, 11))));
     EXPECT_EQ(status(out), status(expected));
-    const auto a = findResult<Foreground>(out.get());
-    const auto b = findResult<Foreground>(expected.get());
+    const auto a = findResult<background::Foreground>(out.get());
+    const auto b = findResult<background::Foreground>(expected.get());
     EXPECT_EQ(testing::digestOf(*a), testing::digestOf(*b));
   }
 }
@@ -301,7 +301,7 @@ TEST(MissingUpstreamLater, GivesOneWarningAndSkippedResults) {
   for (int i = 1; i < 4; ++i) {
     const BufferPtr out = graph.pass(paint(caps, i, square(0, 0, 9)));
     ASSERT_TRUE(out);
-    EXPECT_EQ(findResult<Graph>(out.get())->status, Status::Skipped);
+    EXPECT_EQ(findResult<graph::Graph>(out.get())->status, Status::Skipped);
   }
   EXPECT_NE(graph.complaint(GST_MESSAGE_WARNING).find("hsvsegment"), std::string::npos);
   EXPECT_EQ(graph.complaint(GST_MESSAGE_WARNING), "");
@@ -312,8 +312,8 @@ TEST(Scope, AutoIsTheForegroundBehindBgremoveAndTheFrameWithoutIt) {
   Chain with("bgremove ! hsvsegment", caps), without("hsvsegment", caps);
   const BufferPtr a = with.pass(paint(caps, 0, square(0, 0, 9)));
   const BufferPtr b = without.pass(paint(caps, 0, square(0, 0, 9)));
-  EXPECT_EQ(findResult<Labels>(a.get())->scope, Scope::Foreground);
-  EXPECT_EQ(findResult<Labels>(b.get())->scope, Scope::Frame);
+  EXPECT_EQ(findResult<segmentation::Labels>(a.get())->scope, segmentation::Scope::Foreground);
+  EXPECT_EQ(findResult<segmentation::Labels>(b.get())->scope, segmentation::Scope::Frame);
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 // use of the heap must not grow. Prints the slope for each scene; fails where it is too steep.
 //
 // usage: soak [--frames N] [--size WxH] [--scene NAME]
-#include "core/pixel.hpp"
+#include "core/base/pixel.hpp"
 #include "tests/fuzz/moving_scene.hpp"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 // latency, in an order that a printed seed decides. Run under ThreadSanitizer by tests/campaign.sh.
 //
 // usage: stress [--pushes N] [--size WxH] [--seed S]
-#include "core/pixel.hpp"
+#include "core/base/pixel.hpp"
 #include "tests/fuzz/moving_scene.hpp"
 #include "tests/fuzz/set_property.hpp"
 

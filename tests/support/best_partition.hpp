@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// The exact optimum that core/mrf_merge.hpp comes close to, by trying all partitions.
+// The exact optimum that core/objects/merge/mrf_merge.hpp comes close to, by trying all partitions.
 #pragma once
 
-#include "core/mrf_merge.hpp"
+#include "core/objects/merge/mrf_merge.hpp"
 
 #include <algorithm>
 #include <array>
@@ -19,8 +19,9 @@ inline constexpr uint32_t kMostNodes = 32;
 /// cuts the search.
 class BestPartition {
  public:
-  BestPartition(uint32_t nodeCount, std::span<const WeightedArc> arcs) : weights_(nodeCount) {
-    for (const WeightedArc& arc : arcs) weights_[arc.b].push_back({arc.a, arc.weight});
+  BestPartition(uint32_t nodeCount, std::span<const objects::WeightedArc> arcs)
+      : weights_(nodeCount) {
+    for (const objects::WeightedArc& arc : arcs) weights_[arc.b].push_back({arc.a, arc.weight});
     for (uint32_t node = nodeCount; node-- > 0;) {
       int64_t gain = node + 1 < nodeCount ? bound_[node + 1] : 0;
       for (const auto& [other, weight] : weights_[node]) gain += std::max<int64_t>(0, weight);
@@ -53,7 +54,7 @@ class BestPartition {
 };
 
 /// The most weight that any partition keeps. Arcs have a < b < nodeCount ≤ kMostNodes.
-inline int64_t bestKeptWeight(uint32_t nodeCount, std::span<const WeightedArc> arcs) {
+inline int64_t bestKeptWeight(uint32_t nodeCount, std::span<const objects::WeightedArc> arcs) {
   return BestPartition(nodeCount, arcs).keptWeight();
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "tests/support/busy_scene.hpp"
 
-#include "core/pixel.hpp"
+#include "core/base/pixel.hpp"
 #include "gst/meta/result_meta.hpp"
 
 #include <gtest/gtest.h>
@@ -53,7 +53,7 @@ void tellHead(std::ostream& out, const char* name, const Result& result) {
       << static_cast<int>(result.status) << ' ';
 }
 
-void tellForeground(std::ostream& out, const Foreground& foreground) {
+void tellForeground(std::ostream& out, const background::Foreground& foreground) {
   tellHead(out, "mask", foreground);
   Checksum sum;
   sum.addImage(foreground.mask);
@@ -61,21 +61,21 @@ void tellForeground(std::ostream& out, const Foreground& foreground) {
   out << foreground.areas.size() << " areas " << sum.value() << '\n';
 }
 
-void tellLabels(std::ostream& out, const Labels& labels) {
+void tellLabels(std::ostream& out, const segmentation::Labels& labels) {
   tellHead(out, "labels", labels);
   Checksum sum;
   sum.addImage(labels.ids);
   out << labels.count << ' ' << sum.value() << '\n';
 }
 
-void tellGraph(std::ostream& out, const Graph& graph) {
+void tellGraph(std::ostream& out, const graph::Graph& graph) {
   tellHead(out, "graph", graph);
   Checksum sum;
-  for (const Region& region : graph.regions) {
+  for (const graph::Region& region : graph.regions) {
     sum.add(region.areaPx);
     sum.addBox(region.box);
   }
-  for (const Arc& arc : graph.arcs) {
+  for (const graph::Arc& arc : graph.arcs) {
     sum.add(arc.a);
     sum.add(arc.b);
     sum.add(arc.borderPx);
@@ -84,17 +84,17 @@ void tellGraph(std::ostream& out, const Graph& graph) {
       << '\n';
 }
 
-void tellMotion(std::ostream& out, const Motion& motion) {
+void tellMotion(std::ostream& out, const motion::Motion& motion) {
   tellHead(out, "motion", motion);
   Checksum sum;
-  for (const RegionMotion& region : motion.regions) {
+  for (const motion::RegionMotion& region : motion.regions) {
     sum.add(region.dx);
     sum.add(region.dy);
   }
   out << sum.value() << '\n';
 }
 
-void tellObject(std::ostream& out, const Object& object, size_t name) {
+void tellObject(std::ostream& out, const objects::Object& object, size_t name) {
   out << "  object " << name << " state " << static_cast<int>(object.state) << " at "
       << object.box.x << ',' << object.box.y << ' ' << object.box.width << 'x' << object.box.height
       << " area " << object.areaPx << " centre " << object.centroidX << ',' << object.centroidY
@@ -164,11 +164,11 @@ BufferPtr busyFrame(const Caps& caps, int index) {
 }
 
 int objectsOn(GstBuffer* buffer) {
-  const auto objects = buffer ? findResult<Objects>(buffer) : nullptr;
+  const auto objects = buffer ? findResult<objects::Objects>(buffer) : nullptr;
   if (!objects) return 0;
   return static_cast<int>(
       std::count_if(objects->objects.begin(), objects->objects.end(),
-                    [](const Object& object) { return isListed(object.state); }));
+                    [](const objects::Object& object) { return objects::isListed(object.state); }));
 }
 
 bool showObjects(Chain& chain, int& index) {
@@ -183,18 +183,19 @@ bool showObjects(Chain& chain, int& index) {
 std::string Story::tell(GstBuffer* buffer) {
   std::ostringstream out;
   if (!buffer) return "no frame\n";
-  if (const auto foreground = findResult<Foreground>(buffer)) tellForeground(out, *foreground);
-  if (const auto labels = findResult<Labels>(buffer)) tellLabels(out, *labels);
-  if (const auto graph = findResult<Graph>(buffer)) tellGraph(out, *graph);
-  if (const auto motion = findResult<Motion>(buffer)) tellMotion(out, *motion);
-  const auto objects = findResult<Objects>(buffer);
+  if (const auto foreground = findResult<background::Foreground>(buffer))
+    tellForeground(out, *foreground);
+  if (const auto labels = findResult<segmentation::Labels>(buffer)) tellLabels(out, *labels);
+  if (const auto graph = findResult<graph::Graph>(buffer)) tellGraph(out, *graph);
+  if (const auto motion = findResult<motion::Motion>(buffer)) tellMotion(out, *motion);
+  const auto objects = findResult<objects::Objects>(buffer);
   if (!objects) return out.str();
   tellHead(out, "objects", *objects);
   Checksum sum;
   sum.addImage(objects->slots);
   for (const uint32_t group : objects->regionGroup) sum.add(group);
   out << "camera " << objects->cameraDx << ',' << objects->cameraDy << ' ' << sum.value() << '\n';
-  for (const Object& object : objects->objects)
+  for (const objects::Object& object : objects->objects)
     tellObject(out, object, names_.try_emplace(object.id, names_.size() + 1).first->second);
   return out.str();
 }

@@ -2,7 +2,7 @@
 // All that readers see of a result as one number.
 #pragma once
 
-#include "core/objects.hpp"
+#include "core/objects/objects.hpp"
 #include "core/text/graph.hpp"
 #include "core/text/json.hpp"
 
@@ -34,7 +34,7 @@ class Digest {
   uint64_t value_ = 14695981039346656037u;
 };
 
-inline uint64_t digestOf(const Foreground& result) {
+inline uint64_t digestOf(const background::Foreground& result) {
   Digest digest;
   digest.add(result.status);
   digest.add(result.mask);
@@ -45,7 +45,7 @@ inline uint64_t digestOf(const Foreground& result) {
   return digest.value();
 }
 
-inline uint64_t digestOf(const Labels& result) {
+inline uint64_t digestOf(const segmentation::Labels& result) {
   Digest digest;
   digest.add(result.status);
   digest.add(result.scope);
@@ -54,25 +54,25 @@ inline uint64_t digestOf(const Labels& result) {
   return digest.value();
 }
 
-inline uint64_t digestOf(const Graph& result) {
+inline uint64_t digestOf(const graph::Graph& result) {
   Digest digest;
   digest.add(result.status);
-  for (const Region& region : result.regions)
+  for (const graph::Region& region : result.regions)
     for (const int value : {region.box.x, region.box.width, region.centroidX, region.centroidY,
                             static_cast<int>(region.areaPx), int{region.colour.red}})
       digest.add(value);
-  for (const Arc& arc : result.arcs)
+  for (const graph::Arc& arc : result.arcs)
     for (const uint32_t value : {uint32_t{arc.a}, uint32_t{arc.b}, arc.borderPx, arc.contrast})
       digest.add(value);
-  for (const RegionRun& run : result.runs.list)
+  for (const graph::RegionRun& run : result.runs.list)
     for (const uint16_t value : {run.y, run.begin, run.end}) digest.add(value);
   return digest.value();
 }
 
-inline uint64_t digestOf(const Motion& result) {
+inline uint64_t digestOf(const motion::Motion& result) {
   Digest digest;
   digest.add(result.status);
-  for (const RegionMotion& region : result.regions) {
+  for (const motion::RegionMotion& region : result.regions) {
     digest.add(region.dx);
     digest.add(region.dy);
     digest.add(region.sad);
@@ -81,7 +81,7 @@ inline uint64_t digestOf(const Motion& result) {
   return digest.value();
 }
 
-inline uint64_t digestOf(const Objects& result) {
+inline uint64_t digestOf(const objects::Objects& result) {
   std::string text;
   const text::FrameStamp stamp{1, result.size, {}, {}};
   text::appendJson(text, result, stamp, text::Contours::Write);

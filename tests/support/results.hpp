@@ -2,7 +2,7 @@
 // Results by hand, for the elements that write, show and draw them.
 #pragma once
 
-#include "core/objects.hpp"
+#include "core/objects/objects.hpp"
 #include "gst/meta/result_meta.hpp"
 
 #include <memory>
@@ -11,15 +11,16 @@
 namespace rg::testing {
 
 /// An object that fills its box and moves 16 px/s to the right.
-inline Object object(uint64_t id, const Box& box, ObjectState state = ObjectState::Tracked) {
-  Object object;
+inline objects::Object object(uint64_t id, const Box& box,
+                              objects::ObjectState state = objects::ObjectState::Tracked) {
+  objects::Object object;
   object.id = id;
   object.state = state;
   object.box = box;
   object.areaPx = static_cast<uint32_t>(box.area());
-  object.centroidX = kPositionUnit * (2 * box.x + box.width) / 2;
-  object.centroidY = kPositionUnit * (2 * box.y + box.height) / 2;
-  object.speedX = 16 * kPositionUnit;
+  object.centroidX = objects::kPositionUnit * (2 * box.x + box.width) / 2;
+  object.centroidY = objects::kPositionUnit * (2 * box.y + box.height) / 2;
+  object.speedX = 16 * objects::kPositionUnit;
   object.hasSpeed = true;
   object.ageFrames = 1;
   object.contour = {{box.x, box.y},
@@ -29,8 +30,8 @@ inline Object object(uint64_t id, const Box& box, ObjectState state = ObjectStat
   return object;
 }
 
-inline std::shared_ptr<Objects> objects(Size size, std::vector<Object> list) {
-  auto result = std::make_shared<Objects>();
+inline std::shared_ptr<objects::Objects> objects(Size size, std::vector<objects::Object> list) {
+  auto result = std::make_shared<objects::Objects>();
   result->size = size;
   result->status = Status::Ok;
   result->slots.resize(size);
@@ -46,9 +47,9 @@ inline std::shared_ptr<Objects> objects(Size size, std::vector<Object> list) {
 }
 
 /// Two regions side by side, each half of the frame, that touch; label 1 is left and red.
-inline std::shared_ptr<Graph> graph(Size size) {
+inline std::shared_ptr<graph::Graph> graph(Size size) {
   const int half = size.width / 2;
-  auto result = std::make_shared<Graph>();
+  auto result = std::make_shared<graph::Graph>();
   result->size = size;
   result->status = Status::Ok;
   const auto area = static_cast<uint32_t>(half * size.height);
@@ -63,16 +64,16 @@ inline std::shared_ptr<Graph> graph(Size size) {
   return result;
 }
 
-inline std::shared_ptr<Foreground> foreground(Size size, const Box& box) {
-  auto result = std::make_shared<Foreground>();
+inline std::shared_ptr<background::Foreground> foreground(Size size, const Box& box) {
+  auto result = std::make_shared<background::Foreground>();
   result->size = size;
   result->status = Status::Ok;
   result->mask.resize(size);
   for (int y = 0; y < size.height; ++y)
     for (int x = 0; x < size.width; ++x)
-      result->mask.at(x, y) = box.contains({x, y})                ? kForegroundPixel
-                              : box.contains({x, y - box.height}) ? kShadowPixel
-                                                                  : kBackgroundPixel;
+      result->mask.at(x, y) = box.contains({x, y})                ? background::kForegroundPixel
+                              : box.contains({x, y - box.height}) ? background::kShadowPixel
+                                                                  : background::kBackgroundPixel;
   result->areas = {box};
   return result;
 }

@@ -2,7 +2,7 @@
 // Which regions of one segmentation are regions of another one, pixel by pixel.
 #pragma once
 
-#include "core/segmentation.hpp"
+#include "core/segmentation/segmentation.hpp"
 
 #include <vector>
 
@@ -14,7 +14,7 @@ struct RegionMatch {
 };
 
 /// Compares the regions of `part` that end before its scope does with those of `all`.
-inline RegionMatch matchRegions(const Labels& part, const Labels& all) {
+inline RegionMatch matchRegions(const segmentation::Labels& part, const segmentation::Labels& all) {
   const Size size = part.size;
   std::vector<uint8_t> isCut(part.count + 1u, 0), isMixed(part.count + 1u, 0);
   std::vector<uint32_t> partner(part.count + 1u, 0), areas(part.count + 1u, 0);
@@ -23,11 +23,12 @@ inline RegionMatch matchRegions(const Labels& part, const Labels& all) {
     for (int x = 0; x < size.width; ++x) {
       const uint32_t id = part.ids.at(x, y), other = all.ids.at(x, y);
       ++allAreas[other];
-      if (id == kNoRegion) continue;
+      if (id == segmentation::kNoRegion) continue;
       if (areas[id]++ == 0) partner[id] = other;
       if (partner[id] != other) isMixed[id] = 1;
       for (const Point p : {Point{x - 1, y}, {x + 1, y}, {x, y - 1}, {x, y + 1}})
-        if (boundsOf(size).contains(p) && part.ids.at(p.x, p.y) == kNoRegion) isCut[id] = 1;
+        if (boundsOf(size).contains(p) && part.ids.at(p.x, p.y) == segmentation::kNoRegion)
+          isCut[id] = 1;
     }
   RegionMatch match;
   for (uint32_t id = 1; id <= part.count; ++id) {

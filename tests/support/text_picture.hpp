@@ -2,11 +2,11 @@
 // Masks drawn as text, and pictures with known contents, for tests.
 #pragma once
 
-#include "core/bit_mask.hpp"
-#include "core/executor.hpp"
-#include "core/frame.hpp"
-#include "core/image.hpp"
-#include "core/picture.hpp"
+#include "core/base/bit_mask.hpp"
+#include "core/base/frame.hpp"
+#include "core/base/memory/executor.hpp"
+#include "core/base/memory/image.hpp"
+#include "core/base/picture.hpp"
 
 #include <array>
 #include <memory>

@@ -2,7 +2,7 @@
 // For programs: a result's value, or the end.
 #pragma once
 
-#include "core/result.hpp"
+#include "core/base/result.hpp"
 
 #include <cstdlib>
 #include <iostream>

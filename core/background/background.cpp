@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "core/background/background.hpp"
+
+#include "core/background/background_method.hpp"
+#include "core/base/components.hpp"
+#include "core/base/memory/pool.hpp"
+#include "core/base/renewed_stage.hpp"
+
+#include <optional>
+#include <string>
+
+namespace rg::background {
+namespace {
+
+void clearOutside(ImageView<const uint8_t> interest, ImageView<uint8_t> mask) {
+  for (int y = 0; y < mask.height(); ++y) {
+    const uint8_t* isInside = interest.row(y);
+    uint8_t* row = mask.row(y);
+    for (int x = 0; x < mask.width(); ++x) row[x] = row[x] & isInside[x];
+  }
+}
+
+class CpuBackgroundStage final : public Stage {
+ public:
+  explicit CpuBackgroundStage(Context context) : context_(std::move(context)) {}
+
+  Result<std::shared_ptr<const Foreground>> process(std::shared_ptr<const Picture> picture,
+                                                    const Params& params, FrameTime time) override;
+  void reset(Reset what) override;
+
+ private:
+  BackgroundMethodModel& modelOf(Method method);
+
+  Context context_;
+  FrameClock clock_;
+  Size size_;
+  bool isGrey_ = false;
+  std::optional<Method> method_;
+  std::unique_ptr<BackgroundMethodModel> model_;
+  Components parts_;
+  Pool<Foreground> pool_;
+};
+
+std::unique_ptr<BackgroundMethodModel> makeModel(Method method) {
+  switch (method) {
+    case Method::Paper:
+      return makePaperBackground();
+    case Method::FrameDifference:
+      return makeFrameDifferenceBackground();
+    case Method::Hybrid:
+      break;
+  }
+  return makeHybridBackground();
+}
+
+/// Another method starts anew: the models have nothing in common.
+BackgroundMethodModel& CpuBackgroundStage::modelOf(Method method) {
+  if (!model_ || method_ != method) {
+    model_ = makeModel(method);
+    method_ = method;
+  }
+  return *model_;
+}
+
+Result<std::shared_ptr<const Foreground>> CpuBackgroundStage::process(
+    std::shared_ptr<const Picture> picture, const Params& params, FrameTime time) {
+  if (!picture || picture->size().isEmpty()) return Error{"the picture has no pixels"};
+  const Size size = picture->size();
+  if (!size_.isEmpty() && (size != size_ || picture->isGrey() != isGrey_))
+    return Error{"the picture's format changed from " + std::to_string(size_.width) + "x" +
+                 std::to_string(size_.height) + " within a stream"};
+  if (params.interest && params.interest->size() != size)
+    return Error{"the mask of interest was made for another frame size"};
+  BackgroundMethodModel& model = modelOf(params.method);
+  model.prepare(*picture);
+  size_ = size;
+  isGrey_ = picture->isGrey();
+  clock_.tick(time);
+
+  std::shared_ptr<Foreground> out = pool_.take();
+  out->size = size;
+  out->scene = {};
+  out->status = Status::Ok;
+  out->picture = picture;
+  if (out->mask.size() != size) {
+    out->mask.resize(size);
+    out->extent = boundsOf(size);
+  }
+  model.segment({std::move(picture), params, clock_, *context_.cpu}, *out);
+
+  out->interest = params.interest;
+  const Box& extent = out->extent;
+  const ImageView<uint8_t> mask = out->mask.view().crop(extent);
+  if (out->interest) clearOutside(out->interest->view().crop(extent), mask);
+  findComponents(mask, kForegroundPixel, Connectivity::Eight, parts_);
+  out->areas.clear();
+  for (const Component& part : parts_.list) {
+    const Box& box = part.box;
+    out->areas.push_back({extent.x + box.x, extent.y + box.y, box.width, box.height});
+    out->scene.foregroundPx += part.areaPx;
+  }
+  return {std::move(out)};
+}
+
+void CpuBackgroundStage::reset(Reset) {
+  clock_.breakOff();
+  if (model_) model_->breakOff();
+}
+
+}  // namespace
+
+std::unique_ptr<Stage> makeStage(Context context) {
+  return std::make_unique<RenewedStage<Stage, CpuBackgroundStage>>(std::move(context));
+}
+
+}  // namespace rg::background

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// What the methods of bgremove have in common inside the stage. Not for other stages.
+#pragma once
+
+#include "core/background/background.hpp"
+#include "core/base/frame_clock.hpp"
+#include "core/base/frame_count.hpp"
+
+namespace rg::background {
+
+/// One frame's work order. The stage has checked that the size is the model's.
+struct BackgroundJob {
+  std::shared_ptr<const Picture> picture;
+  const Params& params;
+  const FrameClock& clock;
+  const Executor& executor;
+};
+
+class BackgroundMethodModel {
+ public:
+  virtual ~BackgroundMethodModel() = default;
+  /// Allocates whatever segment() needs for such pictures. May throw; changes no model.
+  virtual void prepare(const Picture& picture) = 0;
+  /// Writes status, mask, extent and scene; then learns the frame. The mask has the picture's size
+  /// and is background outside of the extent, which is that of an earlier frame.
+  virtual void segment(const BackgroundJob& job, Foreground& out) = 0;
+  /// The next frame does not follow the last one.
+  virtual void breakOff() = 0;
+};
+
+[[nodiscard]] std::unique_ptr<BackgroundMethodModel> makePaperBackground();
+[[nodiscard]] std::unique_ptr<BackgroundMethodModel> makeHybridBackground();
+[[nodiscard]] std::unique_ptr<BackgroundMethodModel> makeFrameDifferenceBackground();
+
+}  // namespace rg::background

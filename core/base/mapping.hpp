@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// From the picture that a result was made for to a frame that was scaled since. Every output maps
+// through here, so that boxes, masks and lines of one frame agree.
+#pragma once
+
+#include "core/base/geometry.hpp"
+#include "core/base/pixel.hpp"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace rg {
+
+/// Maps by the ratio of two sizes, neither of them empty. Equal sizes change nothing.
+/// Range: sides up to 2^16, |x| and |y| < 2^47, areas within the frame.
+struct FrameMap {
+  Size from;
+  Size to;
+
+  /// Columns and rows, positions as well as lengths, in any unit of the pixel.
+  [[nodiscard]] constexpr int64_t x(int64_t value) const {
+    return divideRounded(value * to.width, from.width);
+  }
+  [[nodiscard]] constexpr int64_t y(int64_t value) const {
+    return divideRounded(value * to.height, from.height);
+  }
+  [[nodiscard]] constexpr Point point(Point p) const {
+    return {static_cast<int>(x(p.x)), static_cast<int>(y(p.y))};
+  }
+  /// Maps the edges, so that boxes that touch still touch; what was not empty keeps a pixel.
+  [[nodiscard]] constexpr Box box(const Box& b) const {
+    const Point first = point({b.x, b.y});
+    const Point last = point({b.right(), b.bottom()});
+    return {first.x, first.y, std::max(last.x - first.x, b.width > 0 ? 1 : 0),
+            std::max(last.y - first.y, b.height > 0 ? 1 : 0)};
+  }
+  [[nodiscard]] constexpr int64_t area(int64_t areaPx) const {
+    return divideRounded(areaPx * to.area(), from.area());
+  }
+
+  /// The way back, for whole pixels of `to`: the pixel of `from` that lies under the centre.
+  [[nodiscard]] constexpr int sourceX(int column) const {
+    return static_cast<int>((2 * int64_t{column} + 1) * from.width / (2 * int64_t{to.width}));
+  }
+  [[nodiscard]] constexpr int sourceY(int row) const {
+    return static_cast<int>((2 * int64_t{row} + 1) * from.height / (2 * int64_t{to.height}));
+  }
+};
+
+/// A result of a skipped frame may have no size; there is nothing in it to be mapped.
+[[nodiscard]] constexpr FrameMap mapBetween(Size from, Size to) {
+  return {from.isEmpty() ? to : from, to};
+}
+static_assert(FrameMap{{4, 4}, {8, 2}}.box({1, 1, 2, 2}) == Box{2, 1, 4, 1});
+static_assert(FrameMap{{100, 100}, {1, 1}}.box({40, 40, 3, 3}) == Box{0, 0, 1, 1});
+static_assert(FrameMap{{3, 3}, {6, 6}}.area(5) == 20);
+static_assert(FrameMap{{3, 3}, {6, 6}}.sourceX(5) == 2 && FrameMap{{9, 9}, {3, 3}}.sourceY(0) == 1);
+
+}  // namespace rg

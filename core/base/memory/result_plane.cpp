@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "core/base/memory/result_plane.hpp"
+
+#include "core/base/memory/spare.hpp"
+#include "core/simd/base/run_rows.hpp"
+
+#include <cassert>
+#include <span>
+
+namespace rg {
+namespace {
+
+/// Labels as they lie; bytes widened into `row`.
+const uint16_t* wideRow(const uint16_t* pixels, int, std::vector<uint16_t>&) {
+  return pixels;
+}
+const uint16_t* wideRow(const uint8_t* pixels, int width, std::vector<uint16_t>& row) {
+  row.assign(pixels, pixels + width);
+  return row.data();
+}
+
+}  // namespace
+
+template <class T>
+void PlanePacker::pack(const ResultPlane<T>& from, ResultPlane<T>& to) {
+  assert(!from.isPacked() && from.width() <= UINT16_MAX);
+  to.isPacked_ = true;
+  to.size_ = from.size();
+  if (packRows(from.view(), to)) {
+    to.whole_ = {};
+    giveBackSpare(to.begins_);
+    giveBackSpare(to.values_);
+    giveBackSpare(to.starts_);
+  } else {
+    to.whole_.copyFrom(from.view());
+    to.starts_ = {};
+    to.begins_ = {};
+    to.values_ = {};
+  }
+}
+
+/// False where the plane itself takes less.
+template <class T>
+bool PlanePacker::packRows(ImageView<const T> from, ResultPlane<T>& to) {
+  const auto width = static_cast<size_t>(from.width());
+  const size_t most =
+      width * static_cast<size_t>(from.height()) * sizeof(T) / (sizeof(T) + sizeof(uint16_t));
+  begins_.resize(width + 1);
+  to.starts_.assign(1, 0);
+  to.begins_.clear();
+  to.values_.clear();
+  for (int y = 0; y < from.height(); ++y) {
+    const T* pixels = from.row(y);
+    const int runs =
+        simd::findRuns(wideRow(pixels, from.width(), row_), from.width(), begins_.data());
+    const std::span<const uint16_t> begins(begins_.data(), static_cast<size_t>(runs));
+    if (to.begins_.size() + begins.size() > most) return false;
+    to.begins_.insert(to.begins_.end(), begins.begin(), begins.end());
+    for (const uint16_t begin : begins) to.values_.push_back(pixels[begin]);
+    to.starts_.push_back(static_cast<uint32_t>(to.begins_.size()));
+  }
+  return true;
+}
+
+template void PlanePacker::pack(const ResultPlane<uint8_t>& from, ResultPlane<uint8_t>& to);
+template void PlanePacker::pack(const ResultPlane<uint16_t>& from, ResultPlane<uint16_t>& to);
+
+}  // namespace rg

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The pixels of a result: a plane while stages work on them, runs along the rows once only readers
+// are left. A frame that waits in a queue then holds a tenth of the memory.
+#pragma once
+
+#include "core/base/memory/image.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace rg {
+
+template <class T>
+class ResultPlane : public Image<T> {
+ public:
+  using Image<T>::Image;
+  using Image<T>::copyFrom;
+
+  /// Packed pixels are read by unpacked() and unpackedRow() only: row() and view() show nothing.
+  [[nodiscard]] bool isPacked() const { return isPacked_; }
+  [[nodiscard]] Size pixelSize() const { return isPacked_ ? size_ : this->size(); }
+
+  /// The pixels, in `scratch` where they must be unpacked. Throws std::bad_alloc.
+  [[nodiscard]] ImageView<const T> unpacked(Image<T>& scratch) const {
+    if (!isPacked_) return this->view();
+    if (starts_.empty()) return whole_.view();
+    scratch.resize(size_);
+    for (int y = 0; y < size_.height; ++y) unpackRow(y, scratch.row(y));
+    return scratch.view();
+  }
+
+  /// One row of them, in `scratch` where it must be unpacked.
+  [[nodiscard]] const T* unpackedRow(int y, std::vector<T>& scratch) const {
+    if (!isPacked_) return this->row(y);
+    if (starts_.empty()) return whole_.row(y);
+    scratch.resize(static_cast<size_t>(size_.width));
+    unpackRow(y, scratch.data());
+    return scratch.data();
+  }
+
+  void copyFrom(const ResultPlane& other) {
+    isPacked_ = other.isPacked_;
+    size_ = other.size_;
+    starts_ = other.starts_;
+    begins_ = other.begins_;
+    values_ = other.values_;
+    whole_.copyFrom(other.whole_);
+    Image<T>::copyFrom(other.view());
+  }
+
+ private:
+  friend class PlanePacker;
+
+  void unpackRow(int y, T* row) const {
+    const auto first = starts_[static_cast<size_t>(y)], last = starts_[static_cast<size_t>(y) + 1];
+    for (size_t i = first; i < last; ++i) {
+      const int end = i + 1 < last ? begins_[i + 1] : size_.width;
+      std::fill(row + begins_[i], row + end, values_[i]);
+    }
+  }
+
+  bool isPacked_ = false;
+  Size size_;                     ///< When packed.
+  std::vector<uint32_t> starts_;  ///< Runs of row y: starts_[y] … starts_[y + 1] − 1.
+  std::vector<uint16_t> begins_;  ///< First column of each run, which ends where the next begins.
+  std::vector<T> values_;
+  Image<T> whole_;  ///< Instead of runs, where those would take more.
+};
+
+/// Fills packed planes. Its memory serves one frame after the other.
+class PlanePacker {
+ public:
+  /// Columns are 16 bits wide: pictures are narrower than 65536. Throws std::bad_alloc; `to` is
+  /// to be filled anew then.
+  template <class T>
+  void pack(const ResultPlane<T>& from, ResultPlane<T>& to);
+
+ private:
+  template <class T>
+  bool packRows(ImageView<const T> from, ResultPlane<T>& to);
+  std::vector<uint16_t> row_, begins_;
+};
+
+}  // namespace rg

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// A frame as the stages look at it: separate planes of red, green, blue and luma.
+#pragma once
+
+#include "core/base/frame.hpp"
+#include "core/base/memory/executor.hpp"
+#include "core/base/memory/image.hpp"
+
+#include <cstdint>
+
+namespace rg {
+
+/// Full-range R'G'B' of 8 bits. The first stage makes it, later stages find it in the results, so
+/// that all of them see the same pixels. A grey picture holds luma only: all its colour planes are
+/// that one plane.
+class Picture {
+ public:
+  [[nodiscard]] Size size() const { return luma_.size(); }
+  [[nodiscard]] bool isGrey() const { return isGrey_; }
+  [[nodiscard]] ImageView<const uint8_t> red() const { return isGrey_ ? luma_ : red_; }
+  [[nodiscard]] ImageView<const uint8_t> green() const { return isGrey_ ? luma_ : green_; }
+  [[nodiscard]] ImageView<const uint8_t> blue() const { return isGrey_ ? luma_ : blue_; }
+  /// (77 R + 150 G + 29 B + 128) / 256; of Y'CbCr and grey frames Y' as it is stored.
+  [[nodiscard]] ImageView<const uint8_t> luma() const { return luma_; }
+
+  /// Converts a frame. Y'CbCr by the layout's matrix and range, a chroma sample serves its 2x2
+  /// pixels. Each pixel depends on its own samples only: the same bits for any number of threads.
+  void load(const Frame& frame, const Executor& executor);
+
+ private:
+  bool isGrey_ = true;
+  Image<uint8_t> red_, green_, blue_, luma_;
+};
+
+}  // namespace rg

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The pixels of regions as runs along the rows: what works on a region walks those, so that its
+// cost follows the region's pixels and not its box.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <vector>
+
+namespace rg::graph {
+
+/// Pixels begin … end − 1 of row y, all of one region, that go on to neither side.
+struct RegionRun {
+  uint16_t y = 0;
+  uint16_t begin = 0;
+  uint16_t end = 0;
+  friend constexpr bool operator==(const RegionRun&, const RegionRun&) = default;
+};
+
+/// How far from `begin` on, at most to `end`, a row's values are those of its begin. Long runs are
+/// passed by four values at a time.
+[[nodiscard]] inline int endOfRun(const uint16_t* row, int begin, int end) {
+  const uint16_t value = row[begin];
+  const uint64_t four = value * uint64_t{0x0001'0001'0001'0001};
+  int at = begin + 1;
+  for (uint64_t next = 0; at + 4 <= end; at += 4) {
+    std::memcpy(&next, row + at, sizeof next);
+    if (next != four) break;
+  }
+  while (at < end && row[at] == value) ++at;
+  return at;
+}
+
+struct RegionRuns {
+  std::vector<RegionRun> list;   ///< By region, then by row, then by column.
+  std::vector<uint32_t> starts;  ///< Those of region i: starts[i] … starts[i + 1] − 1.
+
+  [[nodiscard]] std::span<const RegionRun> of(size_t region) const {
+    return {list.data() + starts[region], starts[region + 1] - starts[region]};
+  }
+};
+
+}  // namespace rg::graph

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Which pixels of a region its motion is looked for with (part of stage 4).
+//
+// The band along a region's border is a mixture of what lies on both sides, and what is covered or
+// uncovered lies in it: matched are pixels away from the border, in whole blocks of 4x1 pixels, as
+// wide as a SAD instruction. A region that has few such blocks takes every block of which half is
+// its own; one that is too thin for that, none. Of a large region those with texture are enough
+// (core/motion/textured_cells.hpp).
+// Each region that is matched costs a search however few its pixels are: of more regions than
+// mostMatched() those with the most pixels are, of equal ones those with the smaller labels.
+// Determinism: each block depends on its neighbourhood and on integer counts. Parts are sorted by
+// label, then by row of parts, then by column.
+#pragma once
+
+#include "core/base/memory/executor.hpp"
+#include "core/base/memory/image.hpp"
+#include "core/graph/graph.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace rg::motion {
+
+inline constexpr int kBlockWidth = 4;  ///< Blocks start at its multiples, one row high.
+/// A block is inner when its pixels and so many to the left, right, top and bottom of each, as far
+/// as the frame goes, have one label.
+inline constexpr int kBorderReach = 3;
+/// Inner blocks are matched where their pixels are at least one in so many, and kLeastInnerPx.
+inline constexpr uint32_t kInnerShare = 4;
+inline constexpr uint32_t kLeastInnerPx = 16;
+
+/// A bound on the time: as many as there would be of 256 pixels each, and in small frames 1024.
+[[nodiscard]] constexpr size_t mostMatched(Size frame) {
+  return static_cast<size_t>(std::max<int64_t>(1024, frame.area() / 256));
+}
+
+inline constexpr int kPartWidth = 2 * kBlockWidth;
+inline constexpr int kPartHeight = 32;
+
+/// The matched blocks of one region in one tile of kPartWidth x kPartHeight pixels.
+struct MatchedPart {
+  uint64_t blocks = 0;  ///< Bit 2 row + half: the left or right block of a row of the tile.
+  uint16_t column = 0;  ///< In tiles.
+  uint16_t strip = 0;   ///< In tiles.
+  uint16_t label = 0;
+
+  [[nodiscard]] int x() const { return column * kPartWidth; }
+  [[nodiscard]] int y() const { return strip * kPartHeight; }
+  [[nodiscard]] uint32_t pixels() const {
+    return static_cast<uint32_t>(std::popcount(blocks)) * kBlockWidth;
+  }
+};
+
+/// Calls visit(x, y) for the first pixel of each block, by rows.
+template <class Visit>
+void forBlocks(const MatchedPart& part, Visit&& visit) {
+  for (uint64_t left = part.blocks; left != 0; left &= left - 1) {
+    const int bit = std::countr_zero(left);
+    visit(part.x() + bit % 2 * kBlockWidth, part.y() + bit / 2);
+  }
+}
+
+class MatchedBlocks {
+ public:
+  void find(const graph::Graph& graph, const Executor& executor);
+
+  [[nodiscard]] std::span<const MatchedPart> parts() const { return parts_; }
+  [[nodiscard]] std::span<const MatchedPart> partsOf(uint32_t label) const {
+    return parts().subspan(starts_[label - 1], starts_[label] - starts_[label - 1]);
+  }
+
+ private:
+  /// A task's regions, first … last − 1.
+  struct Chunk {
+    uint32_t first = 0, last = 0;
+    std::vector<MatchedPart> parts;
+    std::vector<uint32_t> places;  ///< Of the strip's part in each column of tiles.
+    size_t stripFirst = 0;         ///< Where the parts of the region and strip begin.
+    std::vector<uint64_t> ranks;   ///< Of a region's cells.
+  };
+
+  void findSteady(ImageView<const uint16_t> labels, const Executor& executor);
+  void cutChunks(const graph::RegionRuns& runs);
+  void collect(const graph::Graph& graph, Chunk& chunk);
+  void addInner(const graph::RegionRun& run, uint16_t label, Chunk& chunk) const;
+  void addHalves(const graph::RegionRun& run, uint16_t label, std::pair<int, int>& open,
+                 Chunk& chunk) const;
+  static void add(const graph::RegionRun& run, int column, uint64_t halves, uint16_t label,
+                  Chunk& chunk);
+  static void closeStrip(Chunk& chunk);
+  static void keepEnough(ImageView<const uint8_t> luma, Chunk& chunk, size_t begin);
+  void dropSmallest();
+  void joinChunks(size_t labelCount, const Executor& executor);
+
+  Size size_;
+  Image<uint64_t> same_;    ///< Bit x: of one label with the pixel above.
+  Image<uint64_t> steady_;  ///< Bit 4 i: the columns of block i have one label kBorderReach rows
+                            ///< up and down.
+  std::vector<Chunk> chunks_;
+  std::vector<uint32_t> starts_;  ///< By label: where its parts begin.
+  std::vector<uint32_t> pixels_;  ///< Of each region, matched.
+  std::vector<uint64_t> ranks_;
+  std::vector<MatchedPart> parts_;
+};
+
+}  // namespace rg::motion

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "core/motion/motion.hpp"
+
+#include "core/base/memory/pool.hpp"
+#include "core/base/renewed_stage.hpp"
+#include "core/motion/fit_sums.hpp"
+#include "core/motion/matched_blocks.hpp"
+#include "core/motion/motion_estimate.hpp"
+#include "core/motion/motion_refinement.hpp"
+#include "core/motion/padded_luma.hpp"
+#include "core/motion/shift_search.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+namespace rg::motion {
+namespace {
+
+GradientSums gradientsOf(std::span<const MatchedPart> parts, ImageView<const uint8_t> luma) {
+  const GradientProducts sums = sumGradients(parts, luma);
+  GradientSums gradients{sums.xx, sums.xy, sums.yy, 0};
+  for (const MatchedPart& part : parts) gradients.pixels += part.pixels();
+  return gradients;
+}
+
+bool isUnchanged(std::span<const MatchedPart> parts, ImageView<const uint8_t> luma,
+                 ImageView<const uint8_t> previous) {
+  return std::all_of(parts.begin(), parts.end(), [&](const MatchedPart& part) {
+    bool isSame = true;
+    forBlocks(part, [&](int x, int y) {
+      isSame = isSame && std::memcmp(luma.row(y) + x, previous.row(y) + x, kBlockWidth) == 0;
+    });
+    return isSame;
+  });
+}
+
+class CpuMotion : public Stage {
+ public:
+  explicit CpuMotion(Context context) : context_(std::move(context)) {}
+
+  Result<std::shared_ptr<const Motion>> process(std::shared_ptr<const graph::Graph> graph,
+                                                const Params& params) override;
+  void reset(Reset) override { previous_.reset(); }
+
+ private:
+  void match(const graph::Graph& graph, const Params& params, Motion& motion);
+  [[nodiscard]] RegionMotion matchRegion(std::span<const MatchedPart> parts, const Picture& picture,
+                                         ShiftRange range, SearchScratch& scratch) const;
+
+  Context context_;
+  std::shared_ptr<const Picture> previous_;
+  PaddedLuma padded_;
+  BoxSums boxes_;
+  MatchedBlocks blocks_;
+  std::vector<uint8_t> isStill_;  ///< By region: none of its matched pixels has changed.
+  std::vector<SearchScratch> scratch_;
+  MotionRefinement refinement_;
+  Pool<Motion> pool_;
+};
+
+Result<std::shared_ptr<const Motion>> CpuMotion::process(std::shared_ptr<const graph::Graph> graph,
+                                                         const Params& params) {
+  const auto motion = pool_.take();
+  motion->size = graph->size;
+  motion->status = Status::Skipped;
+  motion->regions.assign(graph->regions.size(), {});
+  motion->matchedBlocks = motion->stillBlocks = 0;
+  if (graph->status != Status::Skipped) {
+    std::shared_ptr<const Picture> picture = graph->labels->picture;
+    if (previous_ && previous_->size() == picture->size()) {
+      match(*graph, params, *motion);
+      motion->status = graph->status;
+    }
+    previous_ = std::move(picture);
+  }
+  motion->graph = std::move(graph);
+  return std::shared_ptr<const Motion>(motion);
+}
+
+void CpuMotion::match(const graph::Graph& graph, const Params& params, Motion& motion) {
+  const int maxShift = std::clamp(params.maxShiftPx, 1, kMostReach - 1);
+  const segmentation::Labels& labels = *graph.labels;
+  blocks_.find(graph, *context_.cpu);
+  if (blocks_.parts().empty()) return;
+  // A ring of shifts beyond is seen, too.
+  padded_.build(previous_->luma(), maxShift + 1, *context_.cpu);
+  boxes_.build(padded_, *context_.cpu);
+  scratch_.resize(static_cast<size_t>(context_.cpu->threads()));
+  isStill_.assign(motion.regions.size(), 0);
+  context_.cpu->forEach(static_cast<int>(labels.count), [&](int index, int thread) {
+    const auto i = static_cast<size_t>(index);
+    const auto parts = blocks_.partsOf(static_cast<uint32_t>(index) + 1);
+    if (parts.empty()) return;
+    isStill_[i] = isUnchanged(parts, labels.picture->luma(), previous_->luma());
+    // Where nothing changed no shift is better than none, and of the others only the nearest count.
+    const ShiftRange range =
+        isStill_[i] != 0 ? ShiftRange{0, 1} : ShiftRange{maxShift, maxShift + 1};
+    motion.regions[i] =
+        matchRegion(parts, *labels.picture, range, scratch_[static_cast<size_t>(thread)]);
+  });
+  for (const MatchedPart& part : blocks_.parts()) {
+    motion.matchedBlocks += part.pixels() / kBlockWidth;
+    if (isStill_[part.label - 1u] != 0) motion.stillBlocks += part.pixels() / kBlockWidth;
+  }
+  if (params.isSubpixel)
+    refinement_.run(graph, blocks_, *previous_, padded_, *context_.cpu, motion.regions);
+}
+
+RegionMotion CpuMotion::matchRegion(std::span<const MatchedPart> parts, const Picture& picture,
+                                    ShiftRange range, SearchScratch& scratch) const {
+  const FoundShift found = searchShifts(parts, picture.luma(), {padded_, boxes_}, range, scratch);
+  return estimateMotion(found, gradientsOf(parts, picture.luma()));
+}
+
+}  // namespace
+
+std::unique_ptr<Stage> makeStage(Context context) {
+  return std::make_unique<RenewedStage<Stage, CpuMotion>>(std::move(context));
+}
+
+}  // namespace rg::motion

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// From whole-pixel vectors of the regions to fractions of a pixel, with what the neighbours say
+// where a region says little itself (part of stage 4).
+//
+// Each region is fitted from its own vector, on the luma or the smoothed luma, whichever tells
+// more: fine texture drowns in noise on the one side, and is smoothed away on the other. Then all
+// look for a consensus (core/motion/motion_consensus.hpp), and each is fitted again with it as its
+// prior, from its own vector and, where the consensus is elsewhere, from there. The consensus wins
+// where it explains the pixels as well as the region's own vector does, up to what chance leaves.
+// Determinism: integers; regions depend on each other through the consensus only.
+#pragma once
+
+#include "core/base/picture.hpp"
+#include "core/motion/motion.hpp"
+#include "core/motion/motion_consensus.hpp"
+
+#include <array>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace rg::motion {
+
+class MotionRefinement {
+ public:
+  /// `previous`: the luma of the frame before, padded. Replaces the vectors in `motion`, whole
+  /// pixels; regions without matched blocks take over the consensus.
+  void run(const graph::Graph& graph, const MatchedBlocks& blocks, const Picture& before,
+           const PaddedLuma& previous, const Executor& executor, std::span<RegionMotion> motion);
+
+ private:
+  struct Candidate {
+    MotionFit fit;
+    uint8_t plane = 0;
+  };
+
+  void smooth(const Picture& before, int reach, const Executor& executor);
+  [[nodiscard]] FitRegion regionOf(size_t i, std::span<const RegionMotion> motion) const;
+  [[nodiscard]] Candidate fitAlone(const FitRegion& region, const RegionMotion& motion) const;
+  [[nodiscard]] MotionFit fitTogether(const FitRegion& region, const Candidate& own,
+                                      const MotionPrior& prior, int reliability) const;
+
+  const graph::Graph* graph_ = nullptr;
+  const MatchedBlocks* blocks_ = nullptr;
+  PaddedLuma smoothCurrent_, smoothPrevious_;
+  std::shared_ptr<const Picture> smoothOf_;  ///< Whose smooth luma smoothCurrent_ holds.
+  std::array<FitPlane, 2> planes_;
+  std::vector<Candidate> alone_;
+  std::vector<SeenMotion> own_;
+  MotionConsensus consensus_;
+};
+
+}  // namespace rg::motion

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The shift at which the sum of absolute differences of a region's blocks against the previous
+// picture is smallest, of all shifts within a reach (part of stage 4).
+//
+// A sum is at least the sum over 4x4 boxes of the differences of the boxes' sums: successive
+// elimination. These bounds cost little; sums are taken only of shifts that could still be the best
+// one or its rival. So what is found is what a search of all shifts finds, whatever is in the
+// picture.
+//
+// Shift (ex, ey), −reach … reach, means previous(x + ex, y + ey): d = −e.
+// Determinism: integer sums. Tie-break: smallest (sum, |d|², d.y, d.x).
+#pragma once
+
+#include "core/base/geometry.hpp"
+#include "core/motion/matched_blocks.hpp"
+#include "core/motion/padded_luma.hpp"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace rg::motion {
+
+struct FoundShift {
+  Point d;
+  /// At (d.x + i, d.y + j): [3 (j + 1) + i + 1].
+  std::array<uint32_t, 9> sums{};
+  uint32_t rival = UINT32_MAX;  ///< The least sum of all other shifts.
+  uint32_t mean = 0;            ///< Of the bounds of all shifts.
+  bool isBeaten = false;        ///< By a shift that may not be the best one.
+
+  [[nodiscard]] int64_t sum(int dx = 0, int dy = 0) const {
+    return sums[static_cast<size_t>(3 * (dy + 1) + dx + 1)];
+  }
+};
+
+/// The picture before, padded by at least the search's reach.
+struct SearchedPicture {
+  const PaddedLuma& luma;
+  const BoxSums& boxes;
+};
+
+/// Shifts of up to maxShift may be the best one; those up to reach, which is greater, are seen.
+struct ShiftRange {
+  int maxShift = 0;
+  int reach = 0;
+};
+
+/// Blocks of 4x1 pixels and boxes of a region, and where they are seen at shift (−reach, −reach).
+struct SearchedBlock {
+  ptrdiff_t offset = 0;
+  uint32_t pixels = 0;
+};
+struct SearchedBox {
+  ptrdiff_t offset = 0;
+  uint16_t sum = 0;
+};
+
+/// What a thread needs; reused from region to region.
+struct SearchScratch {
+  std::vector<SearchedBlock> blocks;
+  std::vector<SearchedBox> boxes;
+  Image<uint16_t> bounds;
+  Image<uint32_t> sums;
+  std::vector<uint16_t> leasts;   ///< Of the bounds of each group of shifts.
+  std::vector<uint8_t> isSummed;  ///< By group of shifts.
+};
+
+/// Bounds go no higher; one at it says nothing of how far the sum is above.
+inline constexpr uint16_t kMostBound = UINT16_MAX;
+
+/// On the best instructions that the machine has; the same as searchShiftsPlainly on all. parts: at
+/// least one, of fewer than 2^22 pixels.
+[[nodiscard]] FoundShift searchShifts(std::span<const MatchedPart> parts,
+                                      ImageView<const uint8_t> luma,
+                                      const SearchedPicture& previous, const ShiftRange& range,
+                                      SearchScratch& scratch);
+
+/// The same from all sums, pixel by pixel: what it means.
+[[nodiscard]] FoundShift searchShiftsPlainly(std::span<const MatchedPart> parts,
+                                             ImageView<const uint8_t> luma,
+                                             const SearchedPicture& previous,
+                                             const ShiftRange& range);
+
+/// Calls visit(x, y) for the first pixel of each box of the part: as many as fit below each other
+/// into each run of blocks, from its upper end on.
+template <class Visit>
+void forBoxes(const MatchedPart& part, Visit&& visit) {
+  for (int half = 0; half < 2; ++half)
+    for (int row = 0, run = 0; row < kPartHeight; ++row) {
+      run = (part.blocks >> (2 * row + half) & 1) != 0 ? run + 1 : 0;
+      if (run < kBoxSide) continue;
+      visit(part.x() + half * kBlockWidth, part.y() + row - kBoxSide + 1);
+      run = 0;
+    }
+}
+
+}  // namespace rg::motion

@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "core/objects/merge/mrf_merge.hpp"
+
+#include "core/base/forest.hpp"
+#include "core/base/pixel.hpp"
+#include "core/objects/merge/empty_groups.hpp"
+#include "core/objects/merge/merge_chains.hpp"
+#include "core/objects/merge/merge_contraction.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+
+namespace rg::objects {
+namespace {
+
+constexpr uint32_t kNone = UINT32_MAX;
+constexpr int kMaxSweeps = 12;
+constexpr int kMaxRestarts = 4;
+// A thing inside another has a border of four to five times the root of its area: what clearly
+// moves otherwise has to outweigh that.
+constexpr int kMostExcess = 6;
+// Mean step across a border, and difference of two colours, that halve what parting costs; in grey
+// levels.
+constexpr int64_t kContrast = 16;
+constexpr int64_t kColour = 30;
+// Of the side of a square as large as the frame: a border of that length costs as much as an arc.
+constexpr int64_t kArcShare = 16;
+
+void listNeighbours(uint32_t nodeCount, std::span<const WeightedArc> arcs, MergeScratch& s) {
+  s.firstArc.assign(nodeCount + 2, 0);
+  for (const WeightedArc& arc : arcs) {
+    ++s.firstArc[arc.a + 2];
+    ++s.firstArc[arc.b + 2];
+  }
+  std::partial_sum(s.firstArc.begin(), s.firstArc.end(), s.firstArc.begin());
+  s.neighbours.resize(2 * arcs.size());
+  for (const WeightedArc& arc : arcs) {
+    s.neighbours[s.firstArc[arc.a + 1]++] = arc;
+    s.neighbours[s.firstArc[arc.b + 1]++] = {arc.b, arc.a, arc.weight};
+  }
+}
+
+/// Where node `node` is best off: its own group, a neighbour's, or an empty one to be alone in.
+uint32_t bestGroup(uint32_t node, uint32_t emptyGroup, const std::vector<uint32_t>& groupOf,
+                   MergeScratch& s) {
+  s.touched.clear();
+  for (const WeightedArc& arc : s.arcsOf(node)) {
+    const uint32_t group = groupOf[arc.b];
+    if (s.pull[group] == 0) s.touched.push_back(group);
+    s.pull[group] += arc.weight;
+  }
+  uint32_t best = groupOf[node];
+  int64_t most = s.pull[best];
+  if (most < 0 && emptyGroup != kNone) {
+    best = emptyGroup;
+    most = 0;
+  }
+  for (const uint32_t group : s.touched)
+    if (s.pull[group] > most || (s.pull[group] == most && best != groupOf[node] && group < best)) {
+      best = group;
+      most = s.pull[group];
+    }
+  for (const uint32_t group : s.touched) s.pull[group] = 0;
+  return best;
+}
+
+/// Moves single nodes in the order of their numbers, each where it keeps most weight. True if any
+/// moved.
+bool moveNodes(std::vector<uint32_t>& groupOf, MergeScratch& s) {
+  const auto nodeCount = static_cast<uint32_t>(groupOf.size());
+  s.groupSize.assign(nodeCount, 0);
+  for (const uint32_t group : groupOf) ++s.groupSize[group];
+  s.pull.assign(nodeCount, 0);
+  s.isSettled.assign(nodeCount, 0);
+  bool hasMoved = false;
+  EmptyGroups empty(s.groupSize, s.emptied);
+  for (int sweep = 0; sweep < kMaxSweeps; ++sweep) {
+    bool isChanged = false;
+    for (uint32_t node = 0; node < nodeCount; ++node) {
+      if (s.isSettled[node] != 0) continue;
+      s.isSettled[node] = 1;
+      const uint32_t from = groupOf[node];
+      const uint32_t free = empty.first();
+      const uint32_t to = bestGroup(node, free < nodeCount ? free : kNone, groupOf, s);
+      if (to == from) continue;
+      if (--s.groupSize[from] == 0) empty.add(from);
+      ++s.groupSize[to];
+      groupOf[node] = to;
+      for (const WeightedArc& arc : s.arcsOf(node)) s.isSettled[arc.b] = 0;
+      isChanged = hasMoved = true;
+    }
+    if (!isChanged) break;
+  }
+  return hasMoved;
+}
+
+/// Replaces groups by their connected parts, numbered by their first nodes. Returns their count.
+uint32_t splitAndNumber(std::span<const WeightedArc> arcs, MergeScratch& s,
+                        std::vector<uint32_t>& groupOf) {
+  s.parent.resize(groupOf.size());
+  std::iota(s.parent.begin(), s.parent.end(), 0u);
+  for (const WeightedArc& arc : arcs)
+    if (groupOf[arc.a] == groupOf[arc.b]) join(s.parent, arc.a, arc.b);
+  const uint32_t count = numberSets(s.parent);
+  std::copy(s.parent.begin(), s.parent.end(), groupOf.begin());
+  return count;
+}
+
+void improve(uint64_t mostVisits, MergeScratch& s, std::vector<uint32_t>& groupOf) {
+  s.visitLimit = s.visits + mostVisits;
+  contract(s, groupOf);
+  for (int restart = 0; restart < kMaxRestarts; ++restart) {
+    const bool hasMoved = moveNodes(groupOf, s);
+    if (!moveChains(groupOf, s) && !hasMoved) return;
+    contract(s, groupOf);
+    if (s.visits >= s.visitLimit) return;
+  }
+}
+
+}  // namespace
+
+void weighArcs(const motion::Motion& motion, std::span<const uint32_t> predicted,
+               const MergeWeights& weights, std::vector<ArcEnergy>& energies) {
+  const graph::Graph& graph = *motion.graph;
+  const int64_t threshold2 = int64_t{weights.motionThreshold} * weights.motionThreshold;
+  const int64_t arcUnit =
+      weights.arc * int64_t{integerSqrt(static_cast<uint64_t>(graph.size.area()))} / kArcShare;
+  energies.clear();
+  energies.reserve(graph.arcs.size());
+  for (const graph::Arc& arc : graph.arcs) {
+    const uint32_t s = arc.a - 1u, t = arc.b - 1u;
+    const motion::RegionMotion &v = motion.regions[s], &u = motion.regions[t];
+    const int64_t dx = v.dx - u.dx, dy = v.dy - u.dy;
+    const int64_t excess =
+        std::clamp(dx * dx + dy * dy - threshold2, int64_t{0}, kMostExcess * threshold2);
+    const int64_t rootArea =
+        integerSqrt(std::min(graph.regions[s].areaPx, graph.regions[t].areaPx));
+    const int64_t pull = std::min(v.reliability, u.reliability) * rootArea;
+    const bool isPredicted =
+        !predicted.empty() && predicted[s] != 0 && predicted[s] == predicted[t];
+    energies.push_back(
+        {.motion = weights.motion * (pull * excess / threshold2) / motion::kFullReliability,
+         .border =
+             int64_t{weights.border} * arc.borderPx * kContrast / (kContrast + arc.meanContrast()),
+         .arc = arcUnit * kColour /
+                (kColour + graph::difference(graph.regions[s].colour, graph.regions[t].colour)),
+         .prediction = isPredicted ? weights.prediction * rootArea : 0});
+  }
+}
+
+GroundEnergy weighGround(int64_t gain, int64_t areaPx, bool isExpected, const MergeWeights& weights,
+                         int64_t stoppedPx) {
+  const int64_t rootArea = integerSqrt(static_cast<uint64_t>(areaPx));
+  const int64_t unexpectedPx = isExpected ? 0 : rootArea;
+  return {.motion = weights.motion * gain / kGainUnit,
+          .prediction = weights.prediction * (unexpectedPx - stoppedPx)};
+}
+
+void listArcs(const graph::Graph& graph, std::span<const ArcEnergy> energies,
+              std::vector<WeightedArc>& arcs) {
+  arcs.clear();
+  arcs.reserve(graph.arcs.size());
+  for (size_t i = 0; i < graph.arcs.size(); ++i)
+    arcs.push_back({graph.arcs[i].a - 1u, graph.arcs[i].b - 1u, energies[i].weight()});
+}
+
+int64_t keptWeight(std::span<const WeightedArc> arcs, std::span<const uint32_t> groupOf) {
+  int64_t sum = 0;
+  for (const WeightedArc& arc : arcs)
+    if (groupOf[arc.a] == groupOf[arc.b]) sum += arc.weight;
+  return sum;
+}
+
+void minimise(uint32_t nodeCount, std::span<const WeightedArc> arcs, MergeScratch& scratch,
+              std::vector<uint32_t>& groupOf) {
+  listNeighbours(nodeCount, arcs, scratch);
+  const uint64_t visitsOfStart = mostVisits(nodeCount, arcs.size()) / 2;
+  scratch.visits = 0;
+  scratch.contractionVisits = 0;
+  scratch.isCutShort = false;
+  const bool hasStart =
+      groupOf.size() == nodeCount && splitAndNumber(arcs, scratch, groupOf) < nodeCount;
+  if (hasStart) scratch.alternative = groupOf;
+  groupOf.resize(nodeCount);
+  std::iota(groupOf.begin(), groupOf.end(), 0u);
+  improve(visitsOfStart, scratch, groupOf);
+  if (hasStart) {
+    improve(visitsOfStart, scratch, scratch.alternative);
+    if (keptWeight(arcs, scratch.alternative) >= keptWeight(arcs, groupOf))
+      groupOf.swap(scratch.alternative);
+  }
+  splitAndNumber(arcs, scratch, groupOf);
+}
+
+void describeGroups(const motion::Motion& motion, std::span<const uint32_t> groupOf,
+                    std::vector<Group>& groups) {
+  const std::vector<graph::Region>& regions = motion.graph->regions;
+  groups.clear();
+  for (size_t i = 0; i < groupOf.size(); ++i) {
+    if (groupOf[i] >= groups.size()) groups.resize(groupOf[i] + 1u);
+    Group& group = groups[groupOf[i]];
+    const motion::RegionMotion& m = motion.regions[i];
+    const int64_t weight = int64_t{regions[i].areaPx} * m.reliability;
+    group.areaPx += regions[i].areaPx;
+    group.box = unite(group.box, regions[i].box);
+    ++group.regionCount;
+    group.momentX += weight * m.dx;  // 2^32 px · 2^8 · 2^11 (64 px in 1/16) fit in 64 bits.
+    group.momentY += weight * m.dy;
+    group.weight += weight;
+    group.sumX += int64_t{regions[i].areaPx} * regions[i].centroidX;
+    group.sumY += int64_t{regions[i].areaPx} * regions[i].centroidY;
+  }
+  for (Group& group : groups) {
+    if (group.weight == 0) continue;
+    group.dx = static_cast<int32_t>(divideRounded(group.momentX, group.weight));
+    group.dy = static_cast<int32_t>(divideRounded(group.momentY, group.weight));
+    group.reliability = static_cast<uint16_t>(divideRounded(group.weight, group.areaPx));
+  }
+}
+
+motion::RegionMotion dominantMotion(const motion::Motion& motion, VoteScratch& scratch) {
+  constexpr int kReach = VoteScratch::kReach, kSide = VoteScratch::kSide;
+  scratch.cells.resize(size_t{kSide} * kSide);
+  const auto cellAt = [&](int x, int y) -> VoteScratch::Cell& {
+    return scratch.cells[static_cast<size_t>((y + kReach) * kSide + x + kReach)];
+  };
+  Box voted;
+  for (size_t i = 0; i < motion.regions.size(); ++i) {
+    const motion::RegionMotion& m = motion.regions[i];
+    const int64_t weight = int64_t{motion.graph->regions[i].areaPx} * m.reliability;
+    if (weight == 0) continue;
+    const auto wholePx = [](int32_t v) {
+      return std::clamp(static_cast<int>(divideRounded(v, motion::kMotionUnit)), 1 - kReach,
+                        kReach - 1);
+    };
+    const Point at{wholePx(m.dx), wholePx(m.dy)};
+    voted = unite(voted, {at.x, at.y, 1, 1});
+    VoteScratch::Cell& cell = cellAt(at.x, at.y);
+    cell.weight += weight;
+    cell.momentX += weight * m.dx;
+    cell.momentY += weight * m.dy;
+  }
+  constexpr Box kInner{1 - kReach, 1 - kReach, kSide - 2, kSide - 2};
+  const Box near = voted.isEmpty() ? voted : intersect(inflate(voted, 1), kInner);
+  motion::RegionMotion best;
+  std::tuple<int64_t, int, int, int> bestKey{0, 0, 0, 0};
+  for (int y = near.y; y < near.bottom(); ++y)
+    for (int x = near.x; x < near.right(); ++x) {
+      VoteScratch::Cell sum;
+      for (int n = 0; n < 9; ++n) {
+        const VoteScratch::Cell& cell = cellAt(x + n % 3 - 1, y + n / 3 - 1);
+        sum.weight += cell.weight;
+        sum.momentX += cell.momentX;
+        sum.momentY += cell.momentY;
+      }
+      const std::tuple key{-sum.weight, x * x + y * y, y, x};
+      if (sum.weight == 0 || key >= bestKey) continue;
+      bestKey = key;
+      best.dx = static_cast<int32_t>(divideRounded(sum.momentX, sum.weight));
+      best.dy = static_cast<int32_t>(divideRounded(sum.momentY, sum.weight));
+      best.reliability = motion::kFullReliability;
+    }
+  for (int y = voted.y; y < voted.bottom(); ++y)
+    std::fill_n(&cellAt(voted.x, y), voted.width, VoteScratch::Cell{});
+  return best;
+}
+
+}  // namespace rg::objects

@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "core/objects/merge/own_motion.hpp"
+
+#include "core/base/pixel.hpp"
+#include "core/objects/merge/region_comparison.hpp"
+#include "core/simd/base/motion_rows.hpp"
+
+#include <algorithm>
+
+namespace rg::objects {
+namespace {
+
+constexpr int kOwnRounds = 2;  // The first movers show which ground was hidden.
+constexpr int kNeighbourRounds = 2;
+constexpr int64_t kLeastGainShare = 4;  // A mover gains a grey level for so many pixels.
+constexpr int64_t kNoiseUnit = 16;
+// In deviations of what noise gains: the best of thousands of shifts, and one that others suggest.
+constexpr int64_t kSearchGain = 4;
+constexpr int64_t kNoiseGain = 1;
+// Pixels that a round compares, but for a row of each region: all of a frame of 800x600, a quarter
+// of one of 1920x1080. Beyond it, rows are like those beside them.
+constexpr uint64_t kMostCompared = uint64_t{1} << 19;
+
+using Sums = OwnMotionScratch::Sums;
+using Trial = OwnMotionScratch::Trial;
+
+/// What is given to all steps.
+struct Inputs {
+  const motion::Motion& motion;
+  const Executor& executor;
+  const OwnMotionRules& rules;
+};
+
+/// expected(x) = previous(x − shift), between its pixels linearly; at the border it repeats.
+void warp(ImageView<const uint8_t> previous, const motion::RegionMotion& shift,
+          const Executor& executor, Image<uint8_t>& expected) {
+  const auto wholeOf = [](int v) {
+    return -((v + motion::kMotionUnit - 1) >> motion::kMotionFractionBits);
+  };
+  const auto partOf = [&](int v) { return -v - wholeOf(v) * motion::kMotionUnit; };
+  const int dx = wholeOf(shift.dx), dy = wholeOf(shift.dy);
+  const int u = partOf(shift.dx), v = partOf(shift.dy);
+  const int width = previous.width(), height = previous.height();
+  const int first = std::clamp(-dx, 0, width), last = std::clamp(width - 1 - dx, first, width);
+  expected.resize(previous.size);
+  executor.forRows(height, [&](int begin, int end) {
+    for (int y = begin; y < end; ++y) {
+      const uint8_t* above = previous.row(std::clamp(y + dy, 0, height - 1));
+      const uint8_t* below = previous.row(std::clamp(y + dy + 1, 0, height - 1));
+      uint8_t* to = expected.row(y);
+      const auto repeatBorder = [&](int from, int until, int column) {
+        const uint8_t sides[] = {above[column], above[column], below[column], below[column]};
+        if (from == until) return;
+        rg::simd::warpRow({sides, sides + 2, u, v}, 1, to + from);
+        std::fill(to + from + 1, to + until, to[from]);
+      };
+      repeatBorder(0, first, 0);
+      if (first < last)
+        rg::simd::warpRow({above + first + dx, below + first + dx, u, v}, last - first, to + first);
+      repeatBorder(last, width, width - 1);
+    }
+  });
+}
+
+Point shiftBeyond(const motion::RegionMotion& m, const motion::RegionMotion& camera) {
+  return {static_cast<int>(divideRounded(m.dx - camera.dx, motion::kMotionUnit)),
+          static_cast<int>(divideRounded(m.dy - camera.dy, motion::kMotionUnit))};
+}
+
+/// Calls visit(first pixel, count, label) for all that the movers covered in the previous frame.
+template <class Visit>
+void forCovered(const Inputs& in, const std::vector<OwnMotion>& own, OwnMotionScratch& s,
+                const Visit& visit) {
+  const graph::Graph& graph = *in.motion.graph;
+  in.executor.forRows(graph.size.height, [&](int begin, int end) {
+    for (size_t i = 0; i < own.size(); ++i) {
+      if (s.moves[i] == 0) continue;
+      const Point shift = own[i].shift;
+      const auto runs = graph.runs.of(i);
+      auto run = std::lower_bound(runs.begin(), runs.end(), begin + shift.y,
+                                  [](const graph::RegionRun& r, int y) { return r.y < y; });
+      for (; run != runs.end() && run->y < end + shift.y; ++run) {
+        const int first = std::max(run->begin - shift.x, 0);
+        const int last = std::min(run->end - shift.x, graph.size.width);
+        if (first < last)
+          visit(s.hidden.row(run->y - shift.y) + first, last - first, static_cast<uint16_t>(i + 1));
+      }
+    }
+  });
+}
+
+/// So many rows are left out that the others hold no more than kMostCompared pixels.
+void limitWork(const graph::Graph& graph, OwnMotionScratch& s) {
+  uint64_t area = 0;
+  for (size_t i = 0; i < s.trials.size(); ++i)
+    if (s.trials[i].shift != Point{}) area += graph.regions[i].areaPx;
+  s.everyRow = static_cast<int>(std::max(uint64_t{1}, (area + kMostCompared - 1) / kMostCompared));
+}
+
+bool movesAny(const OwnMotionScratch& s) {
+  return std::any_of(s.moves.begin(), s.moves.end(), [](uint8_t moves) { return moves != 0; });
+}
+
+bool triesAny(const OwnMotionScratch& s) {
+  return std::any_of(s.trials.begin(), s.trials.end(),
+                     [](const Trial& trial) { return trial.shift != Point{}; });
+}
+
+/// Measures each region that has a shift to try, on pixels that can be compared with and without.
+void measure(const Inputs& in, const std::vector<OwnMotion>& own, OwnMotionScratch& s) {
+  limitWork(*in.motion.graph, s);
+  s.hidesAny = movesAny(s);
+  if (s.hidesAny) forCovered(in, own, s, rg::simd::raiseRow);
+  in.executor.forEach(static_cast<int>(s.trials.size()), [&](int i) {
+    const auto region = static_cast<size_t>(i);
+    if (s.trials[region].shift != Point{}) compareRegion(in.motion, in.rules.camera, region, s);
+  });
+  uint64_t pixels = 0;
+  for (const Trial& trial : s.trials) pixels += trial.seen;
+  s.mostPixels = std::max(s.mostPixels, pixels);
+  ++s.rounds;
+  if (!s.hidesAny) return;
+  forCovered(in, own, s, [](uint16_t* hidden, int count, uint16_t) {
+    std::fill_n(hidden, count, segmentation::kNoRegion);
+  });
+}
+
+/// How much a pixel differs from what explains it, over all that is tried.
+void measureNoise(OwnMotionScratch& s) {
+  uint64_t sum = 0, pixels = 0;
+  for (const OwnMotionScratch::Trial& trial : s.trials) {
+    sum += std::min(trial.sums.still, trial.sums.moved);
+    pixels += trial.sums.pixels;
+  }
+  s.noise = pixels == 0 ? kNoiseUnit : std::max(uint64_t{kNoiseUnit}, kNoiseUnit * sum / pixels);
+}
+
+/// deviations: of its noise, by as many the gain has to be the larger.
+int64_t gainOf(const Sums& sums, int64_t deviations, uint64_t noise) {
+  const auto pixels = static_cast<int64_t>(sums.pixels);
+  const int64_t gain = static_cast<int64_t>(sums.still - sums.moved) - pixels / kLeastGainShare;
+  return kGainUnit * kNoiseUnit * gain / static_cast<int64_t>(noise) -
+         kGainUnit * deviations * integerSqrt(sums.pixels);
+}
+
+/// The same for all of a region's rows, where those that were compared stand for them.
+int64_t gainOfAll(const Trial& trial, int height, int64_t deviations, const OwnMotionScratch& s) {
+  const int64_t compared = (height + s.everyRow - 1) / s.everyRow;
+  return gainOf(trial.sums, deviations, s.noise) * height / compared;
+}
+
+/// What holds each region to what moves, and which of those has the longest border with it.
+void lookAround(const graph::Graph& graph, std::span<const ArcEnergy> arcs, OwnMotionScratch& s) {
+  s.around.assign(s.moves.size(), {});
+  const auto see = [&](uint32_t region, uint32_t other, uint32_t borderPx, int64_t hold) {
+    OwnMotionScratch::Surroundings& around = s.around[region];
+    const bool isMoving = s.moves[other] != 0;
+    around.hold += isMoving ? hold : -hold;
+    if (!isMoving || borderPx <= around.longest) return;
+    around.longest = borderPx;
+    around.neighbour = other + 1;
+  };
+  for (size_t i = 0; i < arcs.size(); ++i) {
+    const graph::Arc& arc = graph.arcs[i];
+    const int64_t hold = arcs[i].border + arcs[i].arc;
+    see(arc.a - 1u, arc.b - 1u, arc.borderPx, hold);
+    see(arc.b - 1u, arc.a - 1u, arc.borderPx, hold);
+  }
+}
+
+uint32_t expectedAs(const OwnMotionRules& rules, size_t region) {
+  return rules.expected.empty() ? 0 : rules.expected[region];
+}
+
+/// Whether U is less when a region moves, with its neighbours as they were guessed.
+bool isMover(const Inputs& in, size_t region, const OwnMotion& own, const OwnMotionScratch& s) {
+  const int64_t area = in.motion.graph->regions[region].areaPx;
+  const GroundEnergy ground =
+      weighGround(own.gain, area, expectedAs(in.rules, region) != 0, in.rules.weights);
+  return s.around[region].hold > ground.weight();
+}
+
+/// Takes over what was measured, and guesses again which of those regions move, by what was seen
+/// around them.
+void judge(const Inputs& in, int64_t deviations, OwnMotionScratch& s, std::vector<OwnMotion>& own) {
+  for (size_t i = 0; i < own.size(); ++i) {
+    const OwnMotionScratch::Trial& trial = s.trials[i];
+    if (trial.shift == Point{}) continue;
+    const int height = in.motion.graph->regions[i].box.height;
+    own[i] = {trial.shift, gainOfAll(trial, height, deviations, s)};
+    s.moves[i] = isMover(in, i, own[i], s);
+  }
+}
+
+/// The shift that a region's own vector suggests, or what it is expected to be.
+Point ownShift(const Inputs& in, size_t region) {
+  const motion::RegionMotion &m = in.motion.regions[region], &camera = in.rules.camera;
+  const int64_t dx = m.dx - camera.dx, dy = m.dy - camera.dy;
+  const int64_t threshold = in.rules.weights.motionThreshold;
+  if (dx * dx + dy * dy > threshold * threshold) return shiftBeyond(m, camera);
+  const uint32_t object = expectedAs(in.rules, region);
+  if (object == 0) return {};
+  const Point step = in.rules.steps[object - 1];
+  return {step.x - static_cast<int>(divideRounded(camera.dx, motion::kMotionUnit)),
+          step.y - static_cast<int>(divideRounded(camera.dy, motion::kMotionUnit))};
+}
+
+}  // namespace
+
+void findOwnMotion(const motion::Motion& motion, ImageView<const uint8_t> previous,
+                   const OwnMotionRules& rules, const Executor& executor, OwnMotionScratch& s,
+                   std::vector<OwnMotion>& own) {
+  const Inputs in{motion, executor, rules};
+  const size_t count = motion.regions.size();
+  own.assign(count, {});
+  s.moves.assign(count, 0);
+  s.trials.assign(count, {});
+  s.mostPixels = 0;
+  s.rounds = 0;
+  for (size_t i = 0; i < count; ++i) s.trials[i].shift = ownShift(in, i);
+  if (!triesAny(s)) return;
+  if (s.hidden.size() != motion.size) {
+    s.hidden.resize(motion.size);
+    s.hidden.fill(segmentation::kNoRegion);
+  }
+  warp(previous, rules.camera, executor, s.expected);
+  for (int round = 0; round < kOwnRounds; ++round) {
+    measure(in, own, s);
+    measureNoise(s);
+    lookAround(*motion.graph, rules.arcs, s);
+    judge(in, kSearchGain, s, own);
+    if (!movesAny(s)) return;  // Nothing is hidden then, and nobody has neighbours that move.
+  }
+  for (int round = 0; round < kNeighbourRounds; ++round) {
+    lookAround(*motion.graph, rules.arcs, s);
+    s.trials.assign(count, {});
+    for (size_t i = 0; i < count; ++i)
+      if (s.moves[i] == 0 && s.around[i].neighbour != 0)
+        s.trials[i].shift = own[s.around[i].neighbour - 1].shift;
+    if (!triesAny(s)) return;
+    measure(in, own, s);
+    judge(in, kNoiseGain, s, own);
+  }
+}
+
+}  // namespace rg::objects

@@ -1,0 +1,374 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "core/objects/objects.hpp"
+
+#include "core/base/memory/pool.hpp"
+#include "core/base/pixel.hpp"
+#include "core/base/renewed_stage.hpp"
+#include "core/base/time.hpp"
+#include "core/objects/merge/ground_merge.hpp"
+#include "core/objects/merge/motion_layers.hpp"
+#include "core/objects/merge/motion_trends.hpp"
+#include "core/objects/merge/mrf_merge.hpp"
+#include "core/objects/merge/own_motion.hpp"
+#include "core/objects/tracking/looks/contour.hpp"
+#include "core/objects/tracking/looks/object_pixels.hpp"
+#include "core/objects/tracking/region_owners.hpp"
+#include "core/objects/tracking/stopped_things.hpp"
+#include "core/objects/tracking/tracker.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace rg::objects {
+namespace {
+
+constexpr int64_t kLongestStepNs = 10'000'000'000;  // Sums of these last for 900 million frames.
+
+MergeWeights weightsOf(const Params& params) {
+  const auto q8 = [](double value) {
+    return static_cast<int32_t>(std::lround(std::clamp(value, 0.0, 1000.0) * 256));
+  };
+  MergeWeights weights;
+  weights.motion = q8(params.motionWeight);
+  weights.border = q8(params.borderWeight);
+  weights.arc = q8(params.arcWeight);
+  weights.prediction = q8(params.predictionWeight);
+  weights.motionThreshold =
+      std::max(1, static_cast<int32_t>(std::lround(std::clamp(params.motionThresholdPx, 0.0, 64.0) *
+                                                   motion::kMotionUnit)));
+  return weights;
+}
+
+class CpuObjectStage final : public Stage {
+ public:
+  explicit CpuObjectStage(Context context) : context_(std::move(context)) {}
+
+  Result<std::shared_ptr<const Objects>> process(std::shared_ptr<const motion::Motion> motion,
+                                                 const Params& params, FrameTime time) override;
+  void reset(Reset what) override;
+  [[nodiscard]] TrackerLegacy bequeath() noexcept { return tracker_.bequeath(); }
+  void inherit(TrackerLegacy&& legacy) noexcept { tracker_.inherit(std::move(legacy)); }
+
+ private:
+  void mergeRegions(const motion::Motion& motion, const Params& params, int64_t stepNs,
+                    Objects& objects);
+  void expectLabels(const graph::Graph& graph, int64_t stepNs, Objects& objects);
+  void startGroups(std::vector<uint32_t>& groupOf) const;
+  void recallStopped(const graph::Graph& graph, Objects& objects);
+  void tieToGround(const graph::Graph& graph, const MergeWeights& weights,
+                   std::vector<GroundEnergy>& energies);
+  void markSurroundings(const graph::Graph& graph, const Objects& objects);
+  void markBackground(const graph::Graph& graph, const Objects& objects);
+  void gatherEvidence(const graph::Graph& graph, const Objects& objects);
+  void markKnown(const graph::Graph& graph, const Objects& objects);
+  void givePixels(const graph::Graph& graph, Objects& objects);
+  void describe(const graph::Graph& graph, bool hasTime, Objects& objects);
+  void nameRegions(const graph::Graph& graph, Objects& objects);
+  int64_t stepTo(FrameTime time);
+
+  Context context_;
+  Tracker tracker_;
+  MergeScratch mergeScratch_;
+  VoteScratch voteScratch_;
+  std::vector<WeightedArc> arcs_;
+  std::vector<uint32_t> expected_;  ///< Of each region 1 + the track it is predicted to be, or 0.
+  std::vector<uint32_t> regionOwner_;  ///< Of each region 1 + the track that it is, or 0.
+  std::vector<Point> shifts_;          ///< Of each track, pixels.
+  RegionOwnerScratch ownerScratch_;
+  std::vector<Group> groups_;
+  std::vector<uint32_t> mainPx_;  ///< Of each group: its largest region that is expected there.
+  std::vector<uint8_t> isBackground_;
+  std::vector<int32_t> majority_;  ///< Of each group: foreground samples less the others.
+  std::shared_ptr<const Picture> previous_;
+  OwnMotionScratch ownMotionScratch_;
+  std::vector<OwnMotion> own_;  ///< Of each region, under Scope::Frame.
+  StoppedScratch stoppedScratch_;
+  std::vector<StoppedThing> stopped_;  ///< Of each region, under Scope::Frame.
+  std::vector<uint8_t> isOpen_;        ///< Of each region: it may be something else than ground.
+  GroundScratch groundScratch_;
+  Evidence evidence_;
+  std::vector<uint8_t> isBackgroundRegion_;
+  std::vector<ObjectSums> sums_;
+  ObjectPixelScratch pixelScratch_;
+  MotionTrends trends_;
+  motion::Motion trend_;  ///< What they say of this frame's regions; where the camera stands.
+  LayerScratch layerScratch_;
+  Pool<Objects> pool_;
+  FrameTime last_;
+  bool hasLast_ = false;
+};
+
+/// Time since the previous frame; a nominal step where it is unknown or runs backwards.
+int64_t CpuObjectStage::stepTo(FrameTime time) {
+  const bool isKnown = hasLast_ && time.isKnown && last_.isKnown && time.ns > last_.ns;
+  const int64_t step = isKnown    ? std::min(timeBetween(last_.ns, time.ns), kLongestStepNs)
+                       : hasLast_ ? kNominalStepNs
+                                  : 0;
+  last_ = time;
+  hasLast_ = true;
+  return step;
+}
+
+void CpuObjectStage::reset(Reset what) {
+  if (what == Reset::Gap) return;  // The next frame's time tells how far to predict.
+  tracker_.reset();
+  previous_.reset();
+  trends_.reset();
+  hasLast_ = false;
+}
+
+/// The objects of the previous frame, moved as they are expected to, name the regions of this one.
+void CpuObjectStage::expectLabels(const graph::Graph& graph, int64_t stepNs, Objects& objects) {
+  const std::vector<Track>& tracks = tracker_.tracks();
+  expected_.assign(graph.regions.size(), 0);
+  objects.regionExpected.assign(graph.regions.size(), 0);
+  if (tracker_.owner().empty() || evidence_.frame != graph.size) return;
+  shifts_.clear();
+  const Point camera{objects.cameraDx, objects.cameraDy};
+  for (const Track& track : tracks)
+    shifts_.push_back(tracker_.expectedShift(track, camera, stepNs));
+  findRegionOwners(*graph.labels, evidence_, tracker_.owner(), shifts_, ownerScratch_, expected_);
+  for (size_t r = 0; r < expected_.size(); ++r)
+    if (expected_[r] != 0) objects.regionExpected[r] = tracks[expected_[r] - 1].id;
+}
+
+/// Regions that are expected to be one object start as one group, all others alone.
+void CpuObjectStage::startGroups(std::vector<uint32_t>& groupOf) const {
+  const auto tracks = static_cast<uint32_t>(tracker_.tracks().size());
+  groupOf.resize(expected_.size());
+  for (uint32_t r = 0; r < groupOf.size(); ++r)
+    groupOf[r] = expected_[r] != 0 ? expected_[r] : tracks + 1 + r;
+}
+
+void CpuObjectStage::mergeRegions(const motion::Motion& motion, const Params& params,
+                                  int64_t stepNs, Objects& objects) {
+  const graph::Graph& graph = *motion.graph;
+  const MergeWeights weights = weightsOf(params);
+  std::vector<uint32_t>& groupOf = objects.regionGroup;
+  const std::shared_ptr<const Picture> previous = std::exchange(previous_, graph.labels->picture);
+  const bool isMoving =
+      graph.labels->scope == segmentation::Scope::Frame && motion.status != Status::Skipped;
+  const motion::RegionMotion camera =
+      isMoving ? dominantMotion(motion, voteScratch_) : motion::RegionMotion{};
+  objects.cameraDx = camera.dx;
+  objects.cameraDy = camera.dy;
+  expectLabels(graph, stepNs, objects);
+  const bool isStill = graph.labels->scope != segmentation::Scope::Frame;
+  if (isStill)
+    followTrends(motion, trends_, trend_);
+  else
+    recallStopped(graph, objects);
+  const motion::Motion& shown = isStill ? trend_ : motion;
+  weighArcs(shown, expected_, weights, objects.arcs);
+  startGroups(groupOf);
+  if (graph.labels->scope == segmentation::Scope::Frame) {
+    own_.assign(graph.regions.size(), {});
+    ownMotionScratch_.moves.assign(graph.regions.size(), 0);
+    if (isMoving && previous && previous_ && previous->size() == previous_->size())
+      findOwnMotion(motion, previous->luma(), {camera, objects.arcs, weights, expected_, shifts_},
+                    *context_.cpu, ownMotionScratch_, own_);
+    tieToGround(graph, weights, objects.ground);
+    objects.groundGroup =
+        minimiseWithGround(graph, objects.arcs, {objects.ground, isOpen_, ownMotionScratch_.moves},
+                           groundScratch_, mergeScratch_, groupOf);
+  } else {
+    listArcs(graph, objects.arcs, arcs_);
+    minimise(static_cast<uint32_t>(graph.regions.size()), arcs_, mergeScratch_, groupOf);
+    partGroups(trend_, expected_, layerScratch_, groupOf);
+  }
+  objects.isCutShort = mergeScratch_.isCutShort;
+  describeGroups(shown, groupOf, groups_);
+  markBackground(graph, objects);
+}
+
+void CpuObjectStage::tieToGround(const graph::Graph& graph, const MergeWeights& weights,
+                                 std::vector<GroundEnergy>& energies) {
+  energies.clear();
+  isOpen_.clear();
+  for (size_t r = 0; r < own_.size(); ++r) {
+    const bool isStopped = stopped_[r].track != 0;
+    // That it moves as the ground does says nothing against what has stopped.
+    const int64_t gain = isStopped ? std::max<int64_t>(0, own_[r].gain) : own_[r].gain;
+    energies.push_back(
+        weighGround(gain, graph.regions[r].areaPx, expected_[r] != 0, weights, stopped_[r].areaPx));
+    isOpen_.push_back(own_[r].isTried() || isStopped);
+    ownMotionScratch_.moves[r] |= isStopped;
+  }
+}
+
+/// What has stopped is expected where it is seen, whatever it did before.
+void CpuObjectStage::recallStopped(const graph::Graph& graph, Objects& objects) {
+  stopped_.assign(graph.regions.size(), {});
+  findStoppedThings(tracker_.tracks(), *graph.labels, {objects.cameraDx, objects.cameraDy},
+                    graph.regions, stoppedScratch_, stopped_);
+  for (size_t r = 0; r < stopped_.size(); ++r) {
+    if (stopped_[r].track == 0) continue;
+    expected_[r] = stopped_[r].track;
+    objects.regionExpected[r] = tracker_.tracks()[stopped_[r].track - 1].id;
+  }
+}
+
+/// Under Scope::Areas regions of the background lie round the things: a group of which most pixels
+/// are not foreground. A sixteenth of the pixels tells it.
+void CpuObjectStage::markSurroundings(const graph::Graph& graph, const Objects& objects) {
+  constexpr int kStep = 4;
+  const segmentation::Labels& labels = *graph.labels;
+  if (!labels.foreground || labels.foreground->mask.size() != graph.size) return;
+  majority_.assign(groups_.size(), 0);
+  for (int y = 0; y < graph.size.height; y += kStep) {
+    const uint16_t* ids = labels.ids.row(y);
+    const uint8_t* mask = labels.foreground->mask.row(y);
+    for (int x = 0; x < graph.size.width; x += kStep)
+      if (ids[x] != segmentation::kNoRegion)
+        majority_[objects.regionGroup[ids[x] - 1u]] +=
+            mask[x] == background::kForegroundPixel ? 1 : -1;
+  }
+  for (size_t g = 0; g < groups_.size(); ++g) isBackground_[g] = majority_[g] < 0;
+}
+
+/// Under Scope::Frame the ground's group is the background.
+void CpuObjectStage::markBackground(const graph::Graph& graph, const Objects& objects) {
+  isBackground_.assign(groups_.size(), 0);
+  if (graph.labels->scope == segmentation::Scope::Areas) return markSurroundings(graph, objects);
+  if (objects.groundGroup != Objects::kNoGroup) isBackground_[objects.groundGroup] = 1;
+}
+
+void CpuObjectStage::givePixels(const graph::Graph& graph, Objects& objects) {
+  isBackgroundRegion_.resize(graph.regions.size());
+  for (size_t r = 0; r < isBackgroundRegion_.size(); ++r)
+    isBackgroundRegion_[r] = isBackground_[objects.regionGroup[r]];
+  sums_.resize(tracker_.tracks().size());
+  findObjectPixels(graph, isBackgroundRegion_, {evidence_, tracker_.owner()}, pixelScratch_,
+                   {objects.slots, sums_});
+}
+
+void CpuObjectStage::describe(const graph::Graph& graph, bool hasTime, Objects& objects) {
+  const std::vector<Track>& tracks = tracker_.tracks();
+  objects.objects.resize(tracks.size());
+  for (size_t i = 0; i < tracks.size(); ++i) {
+    const Track& track = tracks[i];
+    Object& object = objects.objects[i];
+    const ObjectSums& sum = sums_[i];
+    object.id = track.id;
+    object.state = track.state;
+    object.box = track.box();
+    object.areaPx = static_cast<uint32_t>(sum.count);
+    object.centroidX = track.x + track.centreX;
+    object.centroidY = track.foot - track.size.height / 2 + track.centreY;
+    object.colour = track.colour;
+    if (sum.count > 0) {
+      const auto mean = [&](uint64_t total) {
+        return static_cast<uint8_t>((total + sum.count / 2) / sum.count);
+      };
+      // Of a part that is seen the mean would be that part's.
+      if (track.isWhole || track.centreSamples == 0) {
+        object.centroidX =
+            static_cast<int32_t>((sum.x * kPositionUnit + sum.count / 2) / sum.count);
+        object.centroidY =
+            static_cast<int32_t>((sum.y * kPositionUnit + sum.count / 2) / sum.count);
+      }
+      object.colour = {mean(sum.red), mean(sum.green), mean(sum.blue)};
+    }
+    tracker_.remember(i, object.colour);
+    object.hasSpeed = hasTime;
+    object.speedX = hasTime ? track.speedX : 0;
+    object.speedY = hasTime ? track.speedY : 0;
+    object.ageFrames = track.ageFrames;
+    object.parents = track.parents;
+    object.contour.clear();
+    if (sum.count > 0)
+      traceContour(objects.slots, sum.first, 4 * (graph.size.width + graph.size.height),
+                   object.contour);
+  }
+}
+
+/// A region is of the object that owns most of its cells.
+void CpuObjectStage::nameRegions(const graph::Graph& graph, Objects& objects) {
+  shifts_.assign(tracker_.tracks().size(), {});
+  regionOwner_.resize(graph.regions.size());
+  findRegionOwners(*graph.labels, evidence_, tracker_.owner(), shifts_, ownerScratch_,
+                   regionOwner_);
+  objects.regionObject.assign(graph.regions.size(), 0);
+  for (size_t r = 0; r < regionOwner_.size(); ++r)
+    if (regionOwner_[r] != 0) objects.regionObject[r] = tracker_.tracks()[regionOwner_[r] - 1].id;
+}
+
+void CpuObjectStage::gatherEvidence(const graph::Graph& graph, const Objects& objects) {
+  gather(graph, objects.regionGroup, isBackground_, expected_, evidence_);
+  evidence_.camera = {objects.cameraDx, objects.cameraDy};
+  evidence_.showsMovers = graph.labels->scope == segmentation::Scope::Frame;
+  evidence_.motionOf.clear();
+  evidence_.trustOf.clear();
+  for (const Group& group : groups_) {
+    evidence_.motionOf.push_back({group.dx, group.dy});
+    if (!evidence_.showsMovers) evidence_.trustOf.push_back(group.reliability);
+  }
+  markKnown(graph, objects);
+}
+
+/// Groups are known as what their largest region is expected to be.
+void CpuObjectStage::markKnown(const graph::Graph& graph, const Objects& objects) {
+  std::vector<uint8_t>& isKnown = evidence_.isKnown;
+  isKnown.assign(groups_.size(), 0);
+  if (evidence_.showsMovers) return;
+  mainPx_.assign(groups_.size(), 0);
+  for (size_t r = 0; r < expected_.size(); ++r) {
+    const uint32_t group = objects.regionGroup[r], areaPx = graph.regions[r].areaPx;
+    if (expected_[r] == 0 || areaPx <= mainPx_[group]) continue;
+    mainPx_[group] = areaPx;
+    isKnown[group] = Tracker::isFaithful(tracker_.tracks()[expected_[r] - 1]);
+  }
+}
+
+Result<std::shared_ptr<const Objects>> CpuObjectStage::process(
+    std::shared_ptr<const motion::Motion> motion, const Params& params, FrameTime time) {
+  const std::shared_ptr<Objects> objects = pool_.take();
+  objects->size = motion->size;
+  objects->events.clear();
+  objects->regionObject.clear();
+  objects->regionExpected.clear();
+  objects->regionGroup.clear();
+  objects->arcs.clear();
+  objects->groundGroup = Objects::kNoGroup;
+  objects->ground.clear();
+  objects->isCutShort = false;
+  objects->cameraDx = objects->cameraDy = 0;
+  const TrackerParams tracking{
+      static_cast<int64_t>(std::clamp(params.maxLostTimeS, 0.0, 3600.0) * 1e9),
+      static_cast<uint32_t>(std::lround(std::clamp(params.minObjectArea, 0.0, 100.0) / 100 *
+                                        static_cast<double>(motion->size.area())))};
+  const int64_t stepNs = stepTo(time);
+  const std::shared_ptr<const graph::Graph> graph = motion->graph;
+  // prmmotion skips the first frame of all; its regions are there nevertheless.
+  const bool hasRegions = graph && graph->labels && graph->status != Status::Skipped;
+  objects->status = hasRegions ? graph->status : Status::Skipped;
+  objects->motion = motion;
+  if (!hasRegions) {
+    tracker_.predict(stepNs, tracking);
+    objects->objects.clear();
+    objects->slots.resize(motion->size);
+    objects->slots.fill(0);
+    tracker_.takeEvents(false, objects->events);
+    return std::shared_ptr<const Objects>(objects);
+  }
+  mergeRegions(*motion, params, stepNs, *objects);
+  gatherEvidence(*graph, *objects);
+  tracker_.update(evidence_, groups_, stepNs, tracking);
+  givePixels(*graph, *objects);
+  describe(*graph, time.isKnown, *objects);
+  nameRegions(*graph, *objects);
+  const background::Foreground* foreground = graph->labels->foreground.get();
+  tracker_.takeEvents(foreground && background::isAnotherView(foreground->scene.event),
+                      objects->events);
+  return std::shared_ptr<const Objects>(objects);
+}
+
+}  // namespace
+
+std::unique_ptr<Stage> makeStage(Context context) {
+  return std::make_unique<RenewedStage<Stage, CpuObjectStage>>(std::move(context));
+}
+
+}  // namespace rg::objects

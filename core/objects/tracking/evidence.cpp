@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "core/objects/tracking/evidence.hpp"
+
+#include "core/objects/merge/motion_layers.hpp"
+#include "core/objects/tracking/looks/appearance.hpp"
+#include "core/simd/base/run_rows.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace rg::objects {
+namespace {
+
+constexpr int kGridLines = 192;  // A person in a wide view still spans some ten cells.
+constexpr uint8_t kUnknownBin = kColourBins - 1;
+
+/// Where each pixel of an axis is among the middles of the cells.
+template <class MiddleOf>
+void listCells(int pixels, int cells, const MiddleOf& middleOf, std::vector<uint16_t>& cellFrom) {
+  cellFrom.resize(static_cast<size_t>(pixels) + 1);
+  int cell = 0;
+  for (int i = 0; i <= pixels; ++i) {
+    while (cell < cells && middleOf(cell) < i) ++cell;
+    cellFrom[static_cast<size_t>(i)] = static_cast<uint16_t>(cell);
+  }
+}
+
+void layGrid(Size frame, Evidence& e) {
+  if (e.frame == frame && !e.cellFromRow.empty()) return;
+  e.frame = frame;
+  e.stepPx = std::max(1, std::min(frame.width, frame.height) / kGridLines);
+  e.grid = {(frame.width + e.stepPx - 1) / e.stepPx, (frame.height + e.stepPx - 1) / e.stepPx};
+  listCells(
+      frame.width, e.grid.width, [&](int x) { return e.middleOf(x, 0).x; }, e.cellFromColumn);
+  listCells(
+      frame.height, e.grid.height, [&](int y) { return e.middleOf(0, y).y; }, e.cellFromRow);
+}
+
+/// The cells whose middles lie in a run of pixels.
+graph::RegionRun cellsIn(const Evidence& e, const graph::RegionRun& run) {
+  const uint16_t y = e.cellFromRow[run.y];
+  if (e.cellFromRow[run.y + 1u] == y) return {};
+  return {y, e.cellFromColumn[run.begin], e.cellFromColumn[run.end]};
+}
+
+void findBins(const Picture& picture, const graph::RegionRun& cells, Evidence& e) {
+  const int y = e.middleOf(0, cells.y).y;
+  const uint8_t *red = picture.red().row(y), *green = picture.green().row(y);
+  const uint8_t* blue = picture.blue().row(y);
+  uint8_t* bins = e.bin.data() + e.at(0, cells.y);
+  const int end = e.middleOf(cells.end - 1, 0).x;  // The last one may be cut off.
+  int middle = e.middleOf(cells.begin, 0).x;
+  for (int cell = cells.begin; cell < cells.end; ++cell, middle += e.stepPx) {
+    const int x = std::min(middle, end);
+    bins[cell] = colourBin(red[x], green[x], blue[x]);
+  }
+}
+
+constexpr int64_t kLeastApart = 6;  // 1/16 px per frame by which two things differ.
+constexpr int kMostOfStanding = 8;  // The same, by which something may be off that stands.
+
+bool isTrusted(const Evidence& e, uint16_t group) {
+  return !e.trustOf.empty() && e.trustOf[group - 1u] >= kLeastTrust;
+}
+
+}  // namespace
+
+void gather(const graph::Graph& graph, std::span<const uint32_t> groupOf,
+            std::span<const uint8_t> isBackground, std::span<const uint32_t> expectedOf,
+            Evidence& e) {
+  layGrid(graph.size, e);
+  const auto cells = static_cast<size_t>(e.grid.area());
+  e.group.assign(cells, 0);
+  e.bin.assign(cells, kUnknownBin);
+  e.expected.resize(cells);
+  e.cellsOf.assign(isBackground.size(), 0);
+  const Picture* picture = e.picture = graph.labels->picture.get();
+  for (size_t region = 0; region < groupOf.size(); ++region) {
+    const uint32_t group = groupOf[region];
+    if (isBackground[group]) continue;
+    for (const graph::RegionRun& run : graph.runs.of(region)) {
+      const graph::RegionRun found = cellsIn(e, run);
+      const int count = found.end - found.begin;
+      if (count == 0) continue;
+      const size_t first = e.at(found.begin, found.y);
+      std::fill_n(e.group.data() + first, count, static_cast<uint16_t>(group + 1));
+      std::fill_n(e.expected.data() + first, count, static_cast<uint16_t>(expectedOf[region]));
+      e.cellsOf[group] += static_cast<uint32_t>(count);
+      if (picture) findBins(*picture, found, e);
+    }
+  }
+  e.listRuns();
+}
+
+bool areApart(const Evidence& e, uint16_t a, uint16_t b) {
+  if (a == b || a == 0 || b == 0 || e.motionOf.empty()) return false;
+  if (!e.showsMovers && !(isTrusted(e, a) && isTrusted(e, b))) return false;
+  const auto moverOf = [&](uint16_t group) {
+    const Point v = e.motionOf[group - 1u];
+    const int64_t cells = e.cellsOf[group - 1u];
+    return Mover{v.x, v.y, e.showsMovers ? cells : cells * e.trustOf[group - 1u]};
+  };
+  return moveApart(moverOf(a), moverOf(b), e.showsMovers ? kLeastApart : kLeastDrift);
+}
+
+bool areStrangersApart(const Evidence& e, uint16_t a, uint16_t b) {
+  const auto isKnown = [&](uint16_t group) {
+    return group != 0 && !e.isKnown.empty() && e.isKnown[group - 1u] != 0;
+  };
+  return !isKnown(a) && !isKnown(b) && areApart(e, a, b);
+}
+
+bool isKnownToStand(const Evidence& e, uint16_t group) {
+  if (group == 0 || !isTrusted(e, group)) return false;
+  const Point v = e.motionOf[group - 1u];
+  return std::abs(v.x) + std::abs(v.y) < kMostOfStanding;
+}
+
+void Evidence::listRuns() {
+  runs.clear();
+  std::vector<uint16_t>& begins = runBegins;
+  begins.resize(static_cast<size_t>(grid.width) + 1);
+  for (int y = 0; y < grid.height && grid.width > 0; ++y) {
+    const uint16_t* row = group.data() + at(0, y);
+    const int count = rg::simd::findRuns(row, grid.width, begins.data());
+    for (size_t i = 0; i < static_cast<size_t>(count); ++i)
+      if (row[begins[i]] != 0) runs.push_back({static_cast<uint16_t>(y), begins[i], begins[i + 1]});
+  }
+}
+
+}  // namespace rg::objects

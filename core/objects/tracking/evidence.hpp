@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// What the tracker looks at: the frame's merged groups on a coarse grid, so that its cost depends
+// on objects rather than on resolution.
+//
+// Determinism: each cell is the sample at its middle.
+#pragma once
+
+#include "core/base/geometry.hpp"
+#include "core/base/picture.hpp"
+#include "core/graph/graph.hpp"
+#include "core/objects/merge/mrf_merge.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace rg::objects {
+
+struct Evidence {
+  int stepPx = 1;  ///< Side of a cell; 1 up to 288 lines, then growing with the frame.
+  Size frame;
+  const Picture* picture = nullptr;  ///< Of this frame; null where there is none.
+  Size grid;
+  std::vector<uint16_t> group;  ///< Of each cell: 1 + group, 0 = background. Row by row.
+  std::vector<uint8_t>
+      bin;  ///< Colour bin (core/objects/tracking/looks/appearance.hpp), where group is not 0.
+  std::vector<uint16_t> expected;  ///< Of each cell: 1 + the track that its region is predicted to
+                                   ///< be, 0 = none; where group is not 0.
+  std::vector<uint32_t> cellsOf;   ///< Cells of each group.
+  std::vector<Point> motionOf;     ///< Motion of each group, in 1/16 px; may be empty.
+  std::vector<uint16_t> trustOf;   ///< How reliable that is, in 1/256; empty where groups are
+                                   ///< things (showsMovers).
+  std::vector<uint8_t> isKnown;    ///< Of each group: an object of which the portrait is known.
+  std::vector<graph::RegionRun>
+      runs;  ///< Of the cells that are no background, of one group each. Row by
+             ///< row: what walks them costs nothing where nothing is.
+  std::vector<uint16_t> runBegins;  ///< Scratch.
+  /// For each row and column of pixels the first cell whose middle does not come before it; one
+  /// entry more than there are pixels.
+  std::vector<uint16_t> cellFromRow, cellFromColumn;
+  Point camera;  ///< Its motion since the previous frame, in 1/16 px.
+  /// What stands still is background, whatever it is, and groups are things: two that touch are
+  /// told apart by their motion.
+  bool showsMovers = false;
+
+  /// The pixel that cell (x, y) shows.
+  [[nodiscard]] Point middleOf(int x, int y) const {
+    const int half = stepPx / 2;
+    return {std::min(x * stepPx + half, frame.width - 1),
+            std::min(y * stepPx + half, frame.height - 1)};
+  }
+  [[nodiscard]] size_t at(int x, int y) const {
+    return static_cast<size_t>(y) * static_cast<size_t>(grid.width) + static_cast<size_t>(x);
+  }
+  /// Calls visit(index, x, y) for the cells that are no background, in raster order.
+  template <class Visit>
+  void forForeground(Visit&& visit) const {
+    for (const graph::RegionRun& run : runs)
+      for (int x = run.begin; x < run.end; ++x) visit(at(x, run.y), x, int{run.y});
+  }
+  /// Calls visit(part, value) for the longest parts of the runs over which a cell's value is the
+  /// same, in raster order.
+  template <class Visit>
+  void forParts(std::span<const uint16_t> values, Visit&& visit) const {
+    for (const graph::RegionRun& run : runs) {
+      const uint16_t* row = values.data() + at(0, run.y);
+      for (uint16_t begin = run.begin, end = begin; begin < run.end; begin = end) {
+        const uint16_t value = row[begin];
+        end = static_cast<uint16_t>(graph::endOfRun(row, begin, run.end));
+        visit(graph::RegionRun{run.y, begin, end}, value);
+      }
+    }
+  }
+  /// Sets `runs` to what `group` and `grid` say.
+  void listRuns();
+};
+
+/// Samples the labels. Groups for which isBackground is set count as background. expectedOf: of
+/// each region 1 + the track that it is predicted to be, 0 = none.
+void gather(const graph::Graph& graph, std::span<const uint32_t> groupOf,
+            std::span<const uint8_t> isBackground, std::span<const uint32_t> expectedOf,
+            Evidence& evidence);
+
+/// Whether two groups are two things because they move differently, the more so the smaller one is
+/// against the other.
+[[nodiscard]] bool areApart(const Evidence& evidence, uint16_t a, uint16_t b);
+
+/// The same where neither is known: what has a portrait is told from others by that.
+[[nodiscard]] bool areStrangersApart(const Evidence& evidence, uint16_t a, uint16_t b);
+
+/// Whether a group is known to stand still, as what somebody uncovered does who was there first.
+[[nodiscard]] bool isKnownToStand(const Evidence& evidence, uint16_t group);
+
+}  // namespace rg::objects

@@ -1,0 +1,394 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "core/objects/tracking/tracker.hpp"
+
+#include "core/base/frame_count.hpp"
+#include "core/base/pixel.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+
+namespace rg::objects {
+namespace {
+
+// Things leave their expected places by half their width in this time, at most.
+constexpr int64_t kReachNs = 100'000'000;
+constexpr int64_t kSecondUs = 1'000'000;
+constexpr int kUnit = kPositionUnit;
+constexpr uint32_t kTrustedSamples = 8;
+constexpr uint32_t kSteadySamples = 12;
+constexpr int64_t kCentreSamples = 31;
+constexpr int64_t kTurn = 3 * kUnit;  // So far off a sharp portrait, it turned round.
+constexpr uint16_t kRigidSway = 20;   // People's strides are beyond this.
+
+int32_t toInt(int64_t value) {
+  return static_cast<int32_t>(std::clamp<int64_t>(value, INT32_MIN / 4, INT32_MAX / 4));
+}
+
+/// Gains in 1/16 of how far a sighting moves position and speed.
+struct Gains {
+  int position, speed;
+};
+
+Gains gainsOf(const Track& track, const Sighting& s, bool isFaithful, int64_t off) {
+  if (track.hits <= 2) return {16, 14};
+  if (track.hits <= 4) return {14, 8};
+  const bool isSharp = s.isMatched ? 2 * s.share >= 256 : s.isWhole && isFaithful;
+  if (isSharp && off > kTurn) return {16, 12};
+  if (s.isWhole || isSharp) return {11, 4};
+  if (s.isMatched) return 5 * s.share >= 256 ? Gains{8, 1} : Gains{4, 0};
+  return s.isSole ? Gains{8, 1} : Gains{8, 2};
+}
+
+/// How much of what is usually foreground in its box a track owns, in 1/256.
+uint32_t supportOf(const Track& track, const Sighting& s) {
+  const uint64_t usual = uint64_t{s.boxCells} * track.fill;
+  return usual == 0 ? 0 : static_cast<uint32_t>(uint64_t{s.cells} * 256 * 256 / usual);
+}
+
+/// Whether a box is about of a size; legs and arms change a width more than anything a height.
+bool isLike(const Box& box, const Extent& size) {
+  const int64_t height = box.height * int64_t{kUnit}, width = box.width * int64_t{kUnit};
+  return 4 * height >= 3 * int64_t{size.height} && 4 * height <= 5 * int64_t{size.height} &&
+         2 * width >= size.width && 2 * width <= 3 * int64_t{size.width};
+}
+
+/// Whether a box lacks an end of what is expected there.
+bool isCutAtOneEnd(const Track& track, const Box& box, bool isRigid) {
+  const int64_t width = track.size.width;
+  const int64_t atLeft = std::abs(int64_t{box.x} * kUnit - (track.x - width / 2));
+  const int64_t atRight = std::abs(int64_t{box.right()} * kUnit - (track.x + width / 2));
+  return 12 * int64_t{box.width} * kUnit < (isRigid ? 11 : 10) * width &&
+         4 * std::min(atLeft, atRight) <= std::max(atLeft, atRight);
+}
+
+}  // namespace
+
+Place placeOfPart(const Track& track, const Box& part, Size frame) {
+  constexpr int64_t kUnseen = INT32_MAX;  // At the frame's border nothing says where it ends.
+  const auto offset = [](int64_t low, int64_t high, int64_t expectedLow, int64_t expectedHigh) {
+    const int64_t atLow = low - expectedLow, atHigh = high - expectedHigh;
+    const int64_t nearest = std::abs(atLow) <= std::abs(atHigh) ? atLow : atHigh;
+    return low == kUnseen && high == kUnseen ? 0 : nearest;
+  };
+  const int64_t left = int64_t{part.x} * kUnit, right = int64_t{part.right()} * kUnit;
+  const int64_t top = int64_t{part.y} * kUnit, bottom = int64_t{part.bottom()} * kUnit;
+  const int64_t expectedLeft = track.x - track.size.width / 2;
+  const int64_t expectedTop = track.foot - track.size.height;
+  return {
+      track.x + offset(part.x > 0 ? left : kUnseen, part.right() < frame.width ? right : kUnseen,
+                       expectedLeft, expectedLeft + track.size.width),
+      track.foot + offset(part.y > 0 ? top : kUnseen,
+                          part.bottom() < frame.height ? bottom : kUnseen, expectedTop,
+                          track.foot)};
+}
+
+Box Track::box() const {
+  const auto px = [](int64_t v) { return static_cast<int>(divideRounded(v, kUnit)); };
+  const int width = std::max(1, px(size.width)), height = std::max(1, px(size.height));
+  return {px(int64_t{x} - size.width / 2), px(foot) - height, width, height};
+}
+
+void Tracker::reset() {
+  endsAll_ = true;
+  tracks_.clear();
+  encounters_.clear();
+  owner_.clear();
+}
+
+/// In 1/16 px.
+Point Tracker::stepOf(const Track& track, int64_t stepNs) {
+  const auto step = [&](int32_t speed) {
+    return toInt(int64_t{speed} * (stepNs / 1000) / kSecondUs);
+  };
+  return {step(track.speedX), step(track.speedY)};
+}
+
+Point Tracker::expectedShift(const Track& track, Point camera, int64_t stepNs) {
+  const Point step = stepOf(track, stepNs);
+  const auto px = [](int64_t v) { return static_cast<int>(divideRounded(v, kUnit)); };
+  return {px(int64_t{step.x} + camera.x), px(int64_t{step.y} + camera.y)};
+}
+
+/// All of a track's places are places in the picture, which moves over the ground.
+void Tracker::moveWithCamera(Track& track, Point camera) {
+  for (int32_t* x : {&track.x, &track.stillX, &track.originX, &track.learntX})
+    *x = toInt(int64_t{*x} + camera.x);
+  for (int32_t* y : {&track.foot, &track.stillFoot, &track.originFoot, &track.learntFoot})
+    *y = toInt(int64_t{*y} + camera.y);
+}
+
+void Tracker::advance(Track& track, int64_t stepNs) const {
+  const Extent before = scale_.at(track.foot / kUnit);
+  const Point step = stepOf(track, stepNs);
+  track.x = toInt(int64_t{track.x} + step.x);
+  track.foot = toInt(int64_t{track.foot} + step.y);
+  track.ageNs += stepNs;
+  countUp(track.ageFrames);
+  if (before.height == 0 || (isFaithful(track) && !scale_.isUniform())) return;
+  const Extent after = scale_.at(track.foot / kUnit);
+  track.size.width = toInt(int64_t{track.size.width} * after.width / before.width);
+  track.size.height = toInt(int64_t{track.size.height} * after.height / before.height);
+}
+
+void Tracker::predict(int64_t stepNs, const TrackerParams& params) {
+  events_.clear();
+  owner_.clear();
+  for (Track& track : tracks_) {
+    advance(track, stepNs);
+    track.isSeen = false;
+    track.unseenNs += stepNs;
+  }
+  settle(stepNs, params);
+}
+
+void Tracker::update(const Evidence& evidence, std::span<const Group> groups, int64_t stepNs,
+                     const TrackerParams& params) {
+  events_.clear();
+  if (frame_ != evidence.frame) {
+    frame_ = evidence.frame;
+    scale_.reset(frame_);
+  }
+  stepPx_ = evidence.stepPx;
+  showsMovers_ = evidence.showsMovers;
+  for (Track& track : tracks_) {
+    moveWithCamera(track, evidence.camera);
+    advance(track, stepNs);
+    fitSizeToScene(track);
+  }
+  lookForTracks(evidence, stepNs);
+  findBlobs(evidence);
+  placeByPortraits(evidence, stepNs);
+  giveBlobs(evidence);
+  giveGroups(evidence, groups);
+  countCells(evidence);
+  dropStrangers(evidence);
+  findNewcomers(evidence, params);
+  sight(evidence);
+  meet();
+  for (size_t i = 0; i < tracks_.size(); ++i) correct(i, stepNs);
+  rejoin(evidence);
+  for (size_t i = 0; i < sightings_.size(); ++i) {
+    learnSize(i, stepNs, evidence);
+    learnPortrait(i, evidence);
+  }
+  learnScale(evidence);
+  joinDoubles(evidence, stepNs);
+  judgeIdentities();
+  findCompany(stepNs);
+  tellCompany();
+  settle(stepNs, params);
+}
+
+void Tracker::lookForTracks(const Evidence& e, int64_t stepNs) {
+  tasks_.clear();
+  taskTrack_.clear();
+  std::vector<size_t>& order = taskTrack_;
+  for (size_t i = 0; i < tracks_.size(); ++i)
+    if (tracks_[i].state != ObjectState::Lost || isFaithful(tracks_[i])) order.push_back(i);
+  const auto tierOf = [&](const Track& t) {
+    return t.unseenNs > 0 ? 2 : t.isConfirmed && isSizeKnown(t) ? 0 : 1;
+  };
+  std::sort(order.begin(), order.end(), [&](size_t a, size_t b) {
+    const Track &p = tracks_[a], &q = tracks_[b];
+    return std::tuple(tierOf(p), -p.foot, p.id) < std::tuple(tierOf(q), -q.foot, q.id);
+  });
+  const int cell = e.stepPx * kUnit;
+  for (const size_t i : order) {
+    const Track& track = tracks_[i];
+    FitTask task;
+    task.track = static_cast<uint16_t>(i + 1);
+    const auto cells = [&](int64_t v) { return static_cast<int>(divideRounded(v, cell)); };
+    const int width = std::clamp(cells(track.size.width), 1, 2 * e.grid.width);
+    const int height = std::clamp(cells(track.size.height), 1, 2 * e.grid.height);
+    task.expected = {cells(int64_t{track.x} - track.size.width / 2), cells(track.foot) - height,
+                     width, height};
+    const int64_t since = std::min<int64_t>(stepNs + track.unseenNs, kReachNs);
+    const auto within = [&](int most) {
+      return std::max(2, static_cast<int>(divideRounded(most * since, kReachNs)));
+    };
+    task.reachX = track.hits < 3 ? std::max(1, width) : within(width / 2);
+    task.reachY = track.hits < 3 ? std::max(1, height / 3) : within(height / 5);
+    task.tier = tierOf(track);
+    task.isOfOwnSize = isRigid(track);
+    for (int bin = 0; bin < kColourBins && track.look.frames > 0; ++bin) {
+      const int share = shareOf(track.look, bin);
+      task.bonus[static_cast<size_t>(bin)] = share > kFullMatch / 12    ? 2
+                                             : share > kFullMatch / 32  ? 1
+                                             : share > kFullMatch / 100 ? 0
+                                                                        : -1;
+    }
+    tasks_.push_back(task);
+  }
+  fitBoxes(e, tasks_, fitScratch_);
+  assignCells(e, tasks_, owner_);
+  e.forParts(owner_, [&](const graph::RegionRun& part, uint16_t task) {
+    if (task == 0) return;
+    std::fill_n(owner_.data() + e.at(part.begin, part.y), part.end - part.begin,
+                static_cast<uint16_t>(taskTrack_[task - 1u] + 1));
+  });
+  sightings_.assign(tracks_.size(), {});
+  for (size_t t = 0; t < tasks_.size(); ++t) sightings_[taskTrack_[t]].task = static_cast<int>(t);
+}
+
+/// What each track owns of its fitted box.
+void Tracker::countCells(const Evidence& e) {
+  for (size_t i = 0; i < tracks_.size(); ++i) {
+    Sighting& s = sightings_[i];
+    if (s.task < 0) continue;
+    const Box& fitted = tasks_[static_cast<size_t>(s.task)].fitted;
+    const Box box = intersect(fitted, boundsOf(e.grid));
+    s.boxCells = static_cast<uint32_t>(box.area());
+    for (int y = box.y; y < box.bottom(); ++y) {
+      auto& bins = s.look.bins[static_cast<size_t>((y - fitted.y) * kBodyBands / fitted.height)];
+      const uint16_t* owner = owner_.data() + e.at(box.x, y);
+      const uint8_t* bin = e.bin.data() + e.at(box.x, y);
+      for (int x = 0; x < box.width; ++x) {
+        const bool isMine = owner[x] == i + 1;
+        s.cells += isMine;
+        s.othersCells += !isMine && owner[x] != 0;
+        if (isMine) ++bins[bin[x]];
+      }
+    }
+  }
+}
+
+/// Whether the others in its blob were told by their portraits: what they leave is its own.
+bool Tracker::hasTheRest(size_t index) const {
+  for (size_t i = 0; i < sightings_.size(); ++i)
+    if (i != index && blobOf_[i] == blobOf_[index] && !sightings_[i].isMatched) return false;
+  return blobOf_[index] != 0;
+}
+
+void Tracker::sight(const Evidence& e) {
+  for (size_t i = 0; i < tracks_.size(); ++i) {
+    Sighting& s = sightings_[i];
+    if (s.task < 0) continue;
+    const Track& track = tracks_[i];
+    const bool isSole = blobOf_[i] != 0 && soleTrack_[blobOf_[i]] == i + 1;
+    const bool isUsual = isLike(s.box, track.size) ||
+                         (isSole && isLike(s.box, scale_.at(s.box.bottom()))) ||
+                         (!isSizeKnown(track) && (isSole || hasTheRest(i)));
+    s.isSole = isSole;
+    s.isStanding = blobOf_[i] != 0 && isKnownToStand(e, blobs_[blobOf_[i] - 1].group);
+    // People's strides, of which a uniform scene is full, are no reason to distrust a box.
+    s.isCutOff = isSole && !scale_.isUniform() && track.sizeSamples >= kTrustedSamples &&
+                 isCutAtOneEnd(track, s.box, isRigid(track));
+    const bool isClosing = isSole && goesBehind(tracks_[i], s.box);
+    if (isClosing && isRigid(track)) s.isCutOff = true;
+    const bool isAllThere =
+        isSole && isAbout(s.box, track) && 16 * s.share >= 15u * track.portrait.usual;
+    s.isWhole = (!s.isMatched || isAllThere) && !s.box.isEmpty() && isUsual && !s.isCutOff &&
+                5 * s.othersCells < s.boxCells;
+  }
+}
+
+/// Until then a track is what its blob is: it grows with it, and nothing else begins beside it.
+bool Tracker::isSizeKnown(const Track& track) const {
+  return scale_.isUniform() || track.sizeSamples >= kTrustedSamples;
+}
+
+/// Whether its box hardly changes: what is missing of it is hidden.
+bool Tracker::isRigid(const Track& track) const {
+  return !scale_.isUniform() && isSizeKnown(track) && track.sway < kRigidSway;
+}
+
+/// Where a track is that is seen whole: by the mean of its pixels, which tells fractions of a pixel
+/// that the box does not, and follows no single edge.
+Place Tracker::placeOfWhole(Track& track, const Sighting& s) const {
+  const int64_t left = int64_t{s.box.x} * kUnit, right = int64_t{s.box.right()} * kUnit;
+  const int64_t top = int64_t{s.box.y} * kUnit, bottom = int64_t{s.box.bottom()} * kUnit;
+  const Extent size = isSizeKnown(track) ? track.size : sizeOfPart(track, s.box);
+  const bool isCut = s.box.x <= 0 || s.box.y <= 0 || s.box.right() >= frame_.width ||
+                     s.box.bottom() >= frame_.height;
+  Place place{(left + right) / 2, (top + bottom + size.height) / 2};
+  if (!isCut && s.areaPx > 0) {
+    const auto area = static_cast<int64_t>(s.areaPx);
+    const int64_t meanX = divideRounded(s.sumX, 16 * area),
+                  meanY = divideRounded(s.sumY, 16 * area);
+    const auto learn = [&](int32_t& centre, int64_t seen) {
+      const int64_t known = std::min<int64_t>(track.centreSamples, kCentreSamples);
+      centre = toInt(divideRounded(centre * known + seen, known + 1));
+    };
+    learn(track.centreX, meanX - (left + right) / 2);
+    learn(track.centreY, meanY - (top + bottom) / 2);
+    countUp(track.centreSamples);
+    return {meanX - track.centreX, meanY - track.centreY + size.height / 2};
+  }
+  if (s.box.x <= 0 && s.box.right() < frame_.width) place.x = right - size.width / 2;
+  if (s.box.x > 0 && s.box.right() >= frame_.width) place.x = left + size.width / 2;
+  if (s.box.bottom() >= frame_.height) place.foot = top + size.height;
+  if (s.box.y <= 0) place.foot = bottom;
+  return place;
+}
+
+/// Where a track is seen. Of what the scene hides in part the end that is nearest to where it was
+/// expected is taken to be its own, the other one to be cut off.
+Place Tracker::placeOf(size_t index) {
+  Track& track = tracks_[index];
+  const Sighting& s = sightings_[index];
+  if (s.isWhole) return placeOfWhole(track, s);
+  if (s.isMatched) return {s.matched.x, s.matched.y};
+  if (!s.box.isEmpty() && s.isSole && !hidesAnother(track))
+    return placeOfPart(track, s.box, frame_);
+  const FitTask& task = tasks_[static_cast<size_t>(s.task)];
+  return {track.x + int64_t{task.fitted.x - task.expected.x} * stepPx_ * kUnit,
+          track.foot + int64_t{task.fitted.y - task.expected.y} * stepPx_ * kUnit};
+}
+
+/// Nobody sees it: it goes on as it did for a while, not as in the last moment.
+void Tracker::miss(Track& track, const Sighting& s, int64_t stepNs) const {
+  if (track.unseenNs == 0 && track.centreSamples >= kSteadySamples && !isCovered(track)) {
+    const auto isNear = [](int32_t speed, int32_t steady, int32_t size) {
+      return std::abs(speed - steady) <= std::max(std::abs(steady) / 2, size / 2);
+    };
+    if (isNear(track.speedX, track.steadyX, track.size.width) &&
+        isNear(track.speedY, track.steadyY, track.size.height)) {
+      track.speedX = track.steadyX;
+      track.speedY = track.steadyY;
+    }
+  }
+  const auto shift = [&](int64_t dx, int64_t dy) {
+    track.x = toInt(track.x + dx);
+    track.foot = toInt(track.foot + dy);
+    track.heldX = toInt(track.heldX + dx);
+    track.heldFoot = toInt(track.heldFoot + dy);
+  };
+  if (s.isBehind)
+    shift(s.matched.x - track.x, s.matched.y - track.foot);
+  else if (track.unseenNs > kHeldNs)
+    shift(-track.heldX, -track.heldFoot);
+  track.unseenNs += stepNs;
+}
+
+/// Moves a track to where it was seen.
+void Tracker::correct(size_t index, int64_t stepNs) {
+  Track& track = tracks_[index];
+  const Sighting& s = sightings_[index];
+  const bool wasSeen = track.unseenNs == 0;
+  track.isSeen =
+      s.isMatched || (s.task >= 0 && s.cells > 0 && supportOf(track, s) >= (wasSeen ? 77u : 128u));
+  track.isWhole = track.isSeen && s.isWhole;
+  track.isStanding = track.isSeen && s.isStanding;
+  if (!track.isSeen) return miss(track, s, stepNs);
+  track.heldX = track.heldFoot = 0;
+  const Place place = placeOf(index);
+  const int64_t sinceUs = std::max<int64_t>((track.unseenNs + stepNs) / 1000, 1000);
+  const int64_t offX = place.x - track.x, offFoot = place.foot - track.foot;
+  const Gains gains =
+      gainsOf(track, s, isFaithful(track), std::max(std::abs(offX), std::abs(offFoot)));
+  track.x = toInt(track.x + offX * gains.position / 16);
+  track.foot = toInt(track.foot + offFoot * gains.position / 16);
+  track.speedX = toInt(track.speedX + offX * gains.speed * kSecondUs / 16 / sinceUs);
+  track.speedY = toInt(track.speedY + offFoot * gains.speed * kSecondUs / 16 / sinceUs);
+  if (s.isWhole || 4 * s.share >= 256) {
+    const int32_t share = static_cast<int32_t>(std::clamp(track.centreSamples, 1u, kSteadySamples));
+    track.steadyX += (track.speedX - track.steadyX) / share;
+    track.steadyY += (track.speedY - track.steadyY) / share;
+  }
+  track.unseenNs = 0;
+  countUp(track.hits);
+  learnLook(index);
+}
+
+}  // namespace rg::objects

@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Which cells belong to which track, beyond the boxes that were fitted.
+#include "core/objects/tracking/tracker.hpp"
+
+#include <algorithm>
+
+namespace rg::objects {
+namespace {
+
+// What was seen as one may be hidden in its middle, but not for so long.
+constexpr int64_t kPartedNs = 500'000'000;
+
+/// pairs(f) calls f(key, value, times) for everything that is counted.
+template <class Pairs>
+void findMajorities(size_t keys, std::vector<Majority>& result, const Pairs& pairs) {
+  result.assign(keys, {});
+  pairs([&](size_t key, uint32_t value, uint32_t times) { result[key].propose(value, times); });
+  pairs([&](size_t key, uint32_t value, uint32_t times) { result[key].count(value, times); });
+}
+
+/// Whether a blob is another thing than the one beside it: about as high, and in other columns.
+bool standBeside(const Box& mine, const Box& other) {
+  const int columns = std::min(mine.right(), other.right()) - std::max(mine.x, other.x);
+  return 2 * columns < std::min(mine.width, other.width) && 2 * other.height >= mine.height;
+}
+
+}  // namespace
+
+/// Connected parts of all the foreground.
+void Tracker::findBlobs(const Evidence& e) {
+  findPieces(e, {}, blobScratch_, blobs_);
+  if (!scale_.isUniform()) cutPieces(e, blobScratch_, blobs_);
+  findOwnBlobs(e);
+}
+
+/// For each track the blob that it has most cells in.
+void Tracker::findOwnBlobs(const Evidence& e) {
+  blobOf_.assign(tracks_.size(), 0);
+  soleTrack_.assign(blobs_.size() + 1, 0);
+  blobCells_.assign(blobs_.size() + 1, 0);
+  constexpr uint16_t kSeveral = UINT16_MAX;
+  for (size_t t = 0; t < tasks_.size(); ++t) {
+    const size_t track = taskTrack_[t];
+    uint32_t& best = blobOf_[track];
+    const Box box = intersect(tasks_[t].fitted, boundsOf(e.grid));
+    uint32_t most = 0;
+    seenBlobs_.clear();
+    for (int y = box.y; y < box.bottom(); ++y)
+      for (size_t cell = e.at(box.x, y), end = cell + static_cast<size_t>(box.width); cell < end;
+           ++cell)
+        if (owner_[cell] == track + 1 && blobCells_[blobScratch_.label[cell]]++ == 0)
+          seenBlobs_.push_back(blobScratch_.label[cell]);
+    for (const uint32_t blob : seenBlobs_) {
+      if (blobCells_[blob] > most || (blobCells_[blob] == most && blob < best)) {
+        most = blobCells_[blob];
+        best = blob;
+      }
+      blobCells_[blob] = 0;
+    }
+    if (best == 0) continue;
+    uint16_t& sole = soleTrack_[best];
+    sole = sole == 0 ? static_cast<uint16_t>(track + 1) : kSeveral;
+  }
+  for (uint16_t& sole : soleTrack_)
+    if (sole == kSeveral) sole = 0;
+}
+
+/// Calls visit(cell, its blob, the owner's blob) for the cells whose owner has most of its cells in
+/// another blob, in raster order. It may take the cell from its owner.
+template <class Visit>
+void Tracker::forStrayCells(const Evidence& e, const Visit& visit) const {
+  e.forParts(owner_, [&](const graph::RegionRun& part, uint16_t owner) {
+    if (owner == 0) return;
+    const uint32_t main = blobOf_[owner - 1u];
+    const size_t end = e.at(part.end, part.y);
+    for (size_t cell = e.at(part.begin, part.y); cell < end; ++cell) {
+      const uint32_t blob = blobScratch_.label[cell];
+      if (blob != 0 && blob != main) visit(cell, blob, main);
+    }
+  });
+}
+
+/// As long as the scene doesn't say how large things are, one blob is one object: whoever is in it
+/// shares all of it, each the cells that are nearest, and has nothing of another blob that stands
+/// beside it and is about as high.
+void Tracker::giveBlobs(const Evidence& e) {
+  if (scale_.isUniform()) return;
+  forStrayCells(e, [&](size_t cell, uint32_t blob, uint32_t main) {
+    const uint16_t owner = owner_[cell];
+    const Box &mine = blobs_[main - 1].box, &other = blobs_[blob - 1].box;
+    if (areStrangersApart(e, blobs_[main - 1].group, blobs_[blob - 1].group)) {
+      owner_[cell] = 0;
+      return;
+    }
+    if (!standBeside(mine, other)) return;
+    sightings_[owner - 1u].isParted = true;
+    const Track& track = tracks_[owner - 1u];
+    if (!isSizeKnown(track) || track.partedNs > kPartedNs) owner_[cell] = 0;
+  });
+  partTracks(e);
+  limitTracks(e);
+  reclaimExpected(e);
+  spreadOwners(e);
+}
+
+/// Two things above each other were taken for one when they came in: once one has moved against the
+/// other by a quarter of a width, it is given up. Parts of a body don't do that.
+void Tracker::partTracks(const Evidence& e) {
+  findMajorities(tracks_.size(), majorities_, [&](auto&& count) {
+    forStrayCells(
+        e, [&](size_t cell, uint32_t blob, uint32_t) { count(owner_[cell] - 1u, blob, 1u); });
+  });
+  const Box inside = inflate(boundsOf(e.grid), -1);
+  const auto isInside = [&](const Box& box) { return intersect(box, inside) == box; };
+  for (size_t t = 0; t < tracks_.size(); ++t) {
+    Track& track = tracks_[t];
+    const Majority& other = majorities_[t];
+    const bool isPair = blobOf_[t] != 0 && soleTrack_[blobOf_[t]] == t + 1 &&
+                        2 * other.votes > other.total &&
+                        std::count(blobOf_.begin(), blobOf_.end(), other.value) == 0;
+    if (!isPair) track.partOffset = INT32_MIN;
+    if (!isPair) continue;
+    const Piece &main = blobs_[blobOf_[t] - 1], &part = blobs_[other.value - 1];
+    const int least = std::min(main.box.width, part.box.width);
+    if (!isInside(main.box) || !isInside(part.box) || 4 * part.cells < main.cells) continue;
+    const int way = 2 * part.box.x + part.box.width - 2 * main.box.x - main.box.width;
+    const int offset = (part.box.y < main.box.y ? way : -way) * e.stepPx;
+    if (track.partOffset == INT32_MIN) track.partOffset = offset;
+    if (2 * std::abs(offset - track.partOffset) <= least * e.stepPx) continue;
+    e.forForeground([&](size_t cell, int, int) {
+      if (owner_[cell] == t + 1 && blobScratch_.label[cell] == other.value) owner_[cell] = 0;
+    });
+    track.sizeSamples = 0;
+    track.portrait.frames = 0;
+    track.partOffset = INT32_MIN;
+  }
+}
+
+/// A track of known size ends a little way beyond its box.
+void Tracker::limitTracks(const Evidence& e) {
+  limits_.assign(tracks_.size(), boundsOf(e.grid));
+  for (size_t t = 0; t < tasks_.size(); ++t) {
+    const Box& box = tasks_[t].fitted;
+    if (isSizeKnown(tracks_[taskTrack_[t]]))
+      limits_[taskTrack_[t]] = inflate(box, std::max(2, std::min(box.width, box.height) / 4));
+  }
+}
+
+/// Cells go to whom their region is predicted to be, unless a portrait told whose they are.
+void Tracker::reclaimExpected(const Evidence& e) {
+  e.forParts(e.expected, [&](const graph::RegionRun& part, uint16_t expected) {
+    if (expected == 0) return;
+    const Box& limits = limits_[expected - 1u];
+    const Box cells = intersect({part.begin, part.y, part.end - part.begin, 1}, limits);
+    for (size_t cell = e.at(cells.x, part.y), end = cell + static_cast<size_t>(cells.width);
+         cell < end; ++cell) {
+      const bool isTold = owner_[cell] != 0 && sightings_[owner_[cell] - 1u].isMatched;
+      if (!isTold && blobScratch_.label[cell] == blobOf_[expected - 1u]) owner_[cell] = expected;
+    }
+  });
+}
+
+/// Two passes over the grid, each handing owners on with a distance of 3 straight and 4 diagonally.
+void Tracker::spreadOwners(const Evidence& e) {
+  constexpr uint16_t kFar = UINT16_MAX;
+  distance_.resize(owner_.size());
+  bool isComplete = true;
+  e.forParts(owner_, [&](const graph::RegionRun& part, uint16_t owner) {
+    std::fill_n(distance_.data() + e.at(part.begin, part.y), part.end - part.begin,
+                owner != 0 ? uint16_t{0} : kFar);
+    isComplete = isComplete && owner != 0;
+  });
+  if (isComplete) return;
+  const auto take = [&](int direction, int x, int y) {
+    const size_t cell = e.at(x, y);
+    if (distance_[cell] == 0) return;
+    const Point sources[] = {{-direction, 0}, {-1, -direction}, {0, -direction}, {1, -direction}};
+    for (const Point& d : sources) {
+      if (!boundsOf(e.grid).contains({x + d.x, y + d.y})) continue;
+      const size_t other = e.at(x + d.x, y + d.y);
+      if (blobScratch_.label[other] != blobScratch_.label[cell]) continue;
+      const uint32_t far = distance_[other] + (d.x != 0 && d.y != 0 ? 4u : 3u);
+      if (far >= distance_[cell] || !limits_[owner_[other] - 1u].contains({x, y})) continue;
+      distance_[cell] = static_cast<uint16_t>(far);
+      owner_[cell] = owner_[other];
+    }
+  };
+  e.forForeground([&](size_t, int x, int y) { take(1, x, y); });
+  for (auto run = e.runs.rbegin(); run != e.runs.rend(); ++run)
+    for (int x = run->end; x-- > run->begin;) take(-1, x, run->y);
+}
+
+/// What sticks out of a fitted box (an arm, a long stride) goes with its group, when most of the
+/// group belongs to one track. The groups of which a track has most are what is seen of it.
+void Tracker::giveGroups(const Evidence& e, std::span<const Group> groups) {
+  const auto vote = [&](auto&& count) {
+    e.forParts(owner_, [&](const graph::RegionRun& part, uint16_t owner) {
+      if (owner == 0) return;
+      count(e.group[e.at(part.begin, part.y)] - 1u, owner, uint32_t{part.end} - part.begin);
+    });
+  };
+  findMajorities(groups.size(), majorities_, vote);
+  for (size_t t = 0; t < tasks_.size(); ++t) {
+    const auto mine = static_cast<uint16_t>(taskTrack_[t] + 1);
+    const Box& fitted = tasks_[t].fitted;
+    const int side = std::max(1, fitted.width / 3), above = std::max(1, fitted.height / 6);
+    const Box near = intersect(
+        {fitted.x - side, fitted.y - above, fitted.width + 2 * side, fitted.height + 2 * above},
+        boundsOf(e.grid));
+    for (int y = near.y; y < near.bottom(); ++y)
+      for (int x = near.x; x < near.right(); ++x) {
+        const size_t cell = e.at(x, y);
+        if (e.group[cell] == 0 || owner_[cell] != 0) continue;
+        const Majority& group = majorities_[e.group[cell] - 1u];
+        if (group.value == mine && 2 * group.votes >= e.cellsOf[e.group[cell] - 1u])
+          owner_[cell] = mine;
+      }
+  }
+  // Where sizes say nothing, a group of several is shared cell by cell.
+  const auto isOwned = [&](size_t g) {
+    const uint32_t votes = majorities_[g].votes, cells = e.cellsOf[g];
+    return votes > 0 && (scale_.isUniform() ? 5 * votes >= 3 * cells : 20 * votes >= 19 * cells);
+  };
+  if (!scale_.isUniform())
+    e.forParts(owner_, [&](const graph::RegionRun& part, uint16_t owner) {
+      if (owner == 0 || isOwned(e.group[e.at(part.begin, part.y)] - 1u)) return;
+      Sighting& s = sightings_[owner - 1u];
+      const Box box = intersect(
+          {part.begin * e.stepPx, part.y * e.stepPx, (part.end - part.begin) * e.stepPx, e.stepPx},
+          boundsOf(e.frame));
+      s.box = unite(s.box, box);
+      s.areaPx += static_cast<uint64_t>(box.area());
+      s.sumX += box.area() * (2 * box.x + box.width - 1) * 128;
+      s.sumY += box.area() * (2 * box.y + box.height - 1) * 128;
+    });
+  for (size_t g = 0; g < groups.size(); ++g) {
+    if (!isOwned(g)) continue;
+    Sighting& s = sightings_[majorities_[g].value - 1u];
+    s.box = unite(s.box, groups[g].box);
+    s.areaPx += groups[g].areaPx;
+    s.sumX += groups[g].sumX;
+    s.sumY += groups[g].sumY;
+  }
+}
+
+}  // namespace rg::objects

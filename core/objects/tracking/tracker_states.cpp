@@ -1,0 +1,358 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// What becomes of tracks: their size, their state, their end, whom they share a blob with.
+#include "core/base/frame_count.hpp"
+#include "core/base/pixel.hpp"
+#include "core/objects/tracking/tracker.hpp"
+
+#include <algorithm>
+
+namespace rg::objects {
+namespace {
+
+constexpr int kUnit = kPositionUnit;
+constexpr uint32_t kConfirmHits = 3;
+constexpr uint32_t kSteadySamples = 12;
+constexpr uint32_t kSettledFrames = 3;  // What comes in keeps a height for so long: it is its own.
+constexpr int64_t kFlickerNs = 250'000'000;    // A new track that is unseen for longer was nothing.
+constexpr int64_t kDoubleNs = 500'000'000;     // One body for so long, two tracks are one.
+constexpr int64_t kOtherSizeNs = 500'000'000;  // Of another size for so long, it has changed.
+constexpr int64_t kMissNs = 400'000'000;       // Unseen for longer without a reason, it is lost.
+constexpr int64_t kClutterNs = 500'000'000;    // What was there for a shorter time may be clutter.
+// A new thing is trusted once it has moved; what creeps more slowly than its place in this time is
+// the shape of something that left, which the background takes back from its borders.
+constexpr int64_t kCreepNs = 2'000'000'000;
+constexpr int64_t kStillNs = 1'000'000'000;  // In one place for so long, it has stopped.
+
+int32_t mix(int32_t old, int64_t fresh, int64_t oldWeight) {
+  return static_cast<int32_t>(divideRounded(old * oldWeight + fresh, oldWeight + 1));
+}
+
+/// By how much the opposite edge has come nearer since this one stands.
+int closedIn(StandingEdge& edge, int place, int opposite) {
+  if (std::abs(place - edge.place) > 1) edge = {place, opposite};
+  return std::abs(place - edge.opposite) - std::abs(place - opposite);
+}
+
+}  // namespace
+
+/// Whether one end of what is seen stands while the other comes nearer: something stands before it.
+bool Tracker::goesBehind(Track& track, const Box& box) {
+  const int fromLeft = closedIn(track.rightEdge, box.right(), box.x);
+  const int fromRight = closedIn(track.leftEdge, box.x, box.right());
+  return std::max(fromLeft, fromRight) >= std::max(3, box.width / 32);
+}
+
+/// What comes in at the left or right shows its height before its width.
+void Tracker::watchEntry(Track& track, const Sighting& s) const {
+  const Box& box = s.box;
+  const bool isAtSide = box.x <= 0 || box.right() >= frame_.width;
+  const bool isAtEnd = box.y <= 0 || box.bottom() >= frame_.height;
+  if (!track.isSeen || !s.isSole || !isAtSide || isAtEnd) return;
+  const int32_t height = box.height * kUnit;
+  const bool hasStayed = 8 * std::abs(height - track.entryHeight) <= track.entryHeight;
+  if (hasStayed)
+    countUp(track.entryFrames);
+  else
+    track.entryFrames = 0;
+  if (!hasStayed) track.entryHeight = height;
+}
+
+/// How large a track of unknown size is of which `box` is seen: what the frame's border cuts off
+/// was seen before, if it is about to leave.
+Extent Tracker::sizeOfPart(const Track& track, const Box& box) const {
+  Extent size{box.width * kUnit, box.height * kUnit};
+  if (box.x <= 0 || box.right() >= frame_.width)
+    size.width = std::max(size.width, track.size.width);
+  if (box.y <= 0 || box.bottom() >= frame_.height)
+    size.height = std::max(size.height, track.size.height);
+  return size;
+}
+
+/// From a track that was seen whole: its own size and, every half height of its way, the scene's.
+void Tracker::learnSize(size_t index, int64_t stepNs, const Evidence& e) {
+  Track& track = tracks_[index];
+  const Sighting& s = sightings_[index];
+  if (track.isSeen && s.isSole) track.apartNs += stepNs;
+  if (track.isSeen) track.seenNs += stepNs;
+  track.partedNs = s.isParted ? track.partedNs + stepNs : 0;
+  watchEntry(track, s);
+  const Box frame = boundsOf(e.frame);
+  const bool isCut = s.box.x <= frame.x || s.box.y <= frame.y || s.box.right() >= frame.right() ||
+                     s.box.bottom() >= frame.bottom();
+  // What is hidden in part is smaller, not larger.
+  const Extent& size = track.size;
+  const bool isLarger = 8 * s.box.width * kUnit > 9 * size.width + 16 * kUnit ||
+                        8 * s.box.height * kUnit > 9 * size.height + 16 * kUnit;
+  const bool isWrong = track.isSeen && s.isSole && !s.isWhole && !scale_.isUniform() &&
+                       (isLarger || !(s.isMatched || isCut));
+  track.otherNs = isWrong ? track.otherNs + stepNs : 0;
+  if (s.isWhole && track.isSeen) track.usualNs += stepNs;
+  if (track.otherNs > std::max(kOtherSizeNs, track.usualNs)) track.sizeSamples = 0;
+  if (!s.isWhole || !track.isSeen) return;
+  const bool isOther = 5 * s.box.width * kUnit < 4 * track.size.width ||
+                       4 * s.box.width * kUnit > 5 * track.size.width ||
+                       5 * s.box.height * kUnit < 4 * track.size.height ||
+                       4 * s.box.height * kUnit > 5 * track.size.height;
+  // Nothing says where it ends beside somebody else.
+  const bool isShared = !scale_.isUniform() && !s.isSole;
+  if (isCut || isShared || (isOther && !isSizeKnown(track))) {
+    if (!isSizeKnown(track)) track.size = sizeOfPart(track, s.box);
+    return;
+  }
+  const int64_t known = std::min<int64_t>(track.sizeSamples, isRigid(track)       ? 24
+                                                             : scale_.isUniform() ? 12
+                                                                                  : 4);
+  const int64_t weight = scale_.isUniform() ? std::max<int64_t>(known, 4) : known;
+  const auto share = [](int64_t seen, int64_t usual) {
+    return std::abs(seen * kUnit - usual) * 256 / std::max<int64_t>(usual, 1);
+  };
+  const int64_t change =
+      share(s.box.width, track.size.width) + share(s.box.height, track.size.height);
+  track.sway = static_cast<uint16_t>(mix(track.sway, std::min<int64_t>(change, 256), 7));
+  track.size.width = mix(track.size.width, int64_t{s.box.width} * kUnit, weight);
+  track.size.height = mix(track.size.height, int64_t{s.box.height} * kUnit, weight);
+  countUp(track.sizeSamples);
+  if (s.boxCells > 0) {
+    const int64_t fill = std::clamp<int64_t>(int64_t{s.cells} * 256 / s.boxCells, 64, 256);
+    track.fill = static_cast<uint16_t>(mix(track.fill, fill, 7));
+  }
+}
+
+/// Every half height of a track's way the scene learns from the blob that the track is in, whatever
+/// tracks say of sizes: a wrong scale must not confirm itself. Blobs of several things side by side
+/// don't count; tracks above each other may be one thing that was taken apart.
+void Tracker::learnScale(const Evidence& e) {
+  for (size_t i = 0; i < sightings_.size(); ++i) {
+    Track& track = tracks_[i];
+    const int64_t dx = track.x - track.learntX, dy = track.foot - track.learntFoot;
+    const int64_t half = track.size.height / (scale_.isKnown() ? 2 : 6);
+    if (!track.isConfirmed || blobOf_[i] == 0 || dx * dx + dy * dy < half * half) continue;
+    const Box box = blobs_[blobOf_[i] - 1].box;
+    if (box.x <= 0 || box.y <= 0 || box.right() >= e.grid.width || box.bottom() >= e.grid.height)
+      continue;
+    bool isAlone = true, isOneThing = true;
+    for (size_t j = 0; j < sightings_.size(); ++j) {
+      if (j == i || blobOf_[j] != blobOf_[i]) continue;
+      isAlone = false;
+      const Box mine = track.box(), other = tracks_[j].box();
+      const int columns = std::min(mine.right(), other.right()) - std::max(mine.x, other.x);
+      isOneThing &= 2 * columns >= std::min(mine.width, other.width);
+    }
+    if (!isOneThing) continue;
+    track.learntX = track.x;
+    track.learntFoot = track.foot;
+    const int unit = e.stepPx * kUnit;
+    scale_.learn(track.id, box.bottom() * e.stepPx,
+                 {isAlone ? box.width * unit : 0, box.height * unit});
+  }
+}
+
+/// Whether a box is larger than a track of which the size is known from its own history.
+bool Tracker::outgrows(const Track& track, const Box& box) const {
+  if (scale_.isUniform()) return false;
+  const auto isBeyond = [](int px, int64_t size) { return 4 * int64_t{px} * kUnit > 5 * size; };
+  if (isSizeKnown(track))
+    return isBeyond(box.width, track.size.width) || isBeyond(box.height, track.size.height);
+  return track.entryFrames >= kSettledFrames && isBeyond(box.height, track.entryHeight);
+}
+
+/// Whether two tracks keep moving at other speeds: a third of a width per second.
+bool Tracker::movesOtherwise(const Track& a, const Track& b) {
+  if (std::min(a.centreSamples, b.centreSamples) < kSteadySamples) return false;
+  const int64_t dx = a.steadyX - b.steadyX, dy = a.steadyY - b.steadyY;
+  return 3 * (std::abs(dx) + std::abs(dy)) > std::min(a.size.width, b.size.width);
+}
+
+/// Whether two tracks seem to be one body: they lie above each other as its halves do, or together
+/// show no more than one of them should.
+bool Tracker::areOneBody(const Evidence& e, size_t a, size_t b) const {
+  const Track &p = tracks_[a], &q = tracks_[b];
+  const Box first = p.box(), second = q.box(), both = unite(first, second);
+  const int columns = std::min(first.right(), second.right()) - std::max(first.x, second.x);
+  if (blobOf_[a] != 0 && blobOf_[b] != 0 &&
+      areApart(e, blobs_[blobOf_[a] - 1].group, blobs_[blobOf_[b] - 1].group))
+    return false;
+  if (!scale_.isUniform() && (movesOtherwise(p, q) || isComplete(a, e) || isComplete(b, e)))
+    return false;
+  if (outgrows(p, both) || outgrows(q, both)) return false;
+  if (!scale_.isUniform() && blobOf_[a] != 0 && blobOf_[a] == blobOf_[b] &&
+      std::min(p.apartNs, q.apartNs) < kDoubleNs)
+    return true;
+  if (5 * columns < 3 * std::min(first.width, second.width)) return false;
+  if (!scale_.isUniform()) {
+    const int rows = std::min(first.bottom(), second.bottom()) - std::max(first.y, second.y);
+    const int least = std::min(first.height, second.height);
+    return 5 * rows < 2 * least && 4 * rows > -least;
+  }
+  const Extent usual = scale_.at(both.bottom());
+  if (4 * both.height * kUnit < 5 * usual.height) return true;
+  const Sighting &s = sightings_[a], &t = sightings_[b];
+  const uint64_t one = uint64_t{std::max(s.boxCells, t.boxCells)} * std::max(p.fill, q.fill);
+  return 256 * uint64_t{s.cells + t.cells} * 4 < 5 * one &&
+         2 * intersect(first, second).area() > std::min(first.area(), second.area());
+}
+
+/// Ends tracks that were one body with an older one for a while.
+void Tracker::joinDoubles(const Evidence& e, int64_t stepNs) {
+  for (size_t b = 0; b < sightings_.size(); ++b) {
+    Track& track = tracks_[b];
+    if (!track.isSeen) continue;
+    size_t partner = b;
+    for (size_t a = 0; a < b && partner == b; ++a)
+      if (tracks_[a].isSeen && !tracks_[a].isOver && areOneBody(e, a, b)) partner = a;
+    if (partner == b) {
+      track.doubleNs = 0;
+      continue;
+    }
+    track.doubleNs += stepNs;
+    // Nothing says that it is a thing of its own when it was apart for a shorter time.
+    if (track.doubleNs < (scale_.isUniform() ? kDoubleNs : std::min(kDoubleNs, track.apartNs)))
+      continue;
+    Track& kept = tracks_[partner];
+    if (!scale_.isUniform()) {
+      const Box both = unite(kept.box(), track.box());
+      kept.x = (2 * both.x + both.width) * kUnit / 2;
+      kept.foot = both.bottom() * kUnit;
+      kept.size = {both.width * kUnit, both.height * kUnit};
+      kept.sizeSamples = 0;
+    }
+    track.isOver = true;
+    for (uint16_t& owner : owner_)
+      if (owner == b + 1) owner = static_cast<uint16_t>(partner + 1);
+  }
+}
+
+/// Where all things are of one size, a track that isn't was a part of one, or several at once: its
+/// box becomes a usual one, and what that leaves over becomes a newcomer.
+void Tracker::fitSizeToScene(Track& track) const {
+  if (!scale_.isUniform() || isFaithful(track)) return;
+  const Extent usual = scale_.at(track.foot / kUnit);
+  const auto limit = [](int32_t& value, int64_t expected, int64_t least, int64_t most) {
+    value = static_cast<int32_t>(
+        std::clamp<int64_t>(value, expected * least / 100, expected * most / 100));
+  };
+  limit(track.size.height, usual.height, 80, 130);
+  limit(track.size.width, usual.width, 65, 145);
+}
+
+/// Whether other tracks stand in front of most of this one.
+bool Tracker::isCovered(const Track& track) const {
+  const Box box = track.box();
+  int64_t covered = 0;
+  for (const Track& other : tracks_)
+    if (other.id != track.id && other.isSeen && other.isConfirmed)
+      covered += intersect(other.box(), box).area();
+  return 5 * covered >= 2 * box.area();
+}
+
+/// Whether another track is missing where this one is: they may share what is seen.
+bool Tracker::hidesAnother(const Track& track) const {
+  return std::any_of(tracks_.begin(), tracks_.end(), [&](const Track& other) {
+    return other.id != track.id && other.isConfirmed && other.unseenNs > 0 &&
+           !intersect(other.box(), track.box()).isEmpty();
+  });
+}
+
+/// How far a track has come since it last left its place, in 1/16 px. Of what comes in at the
+/// border only the inner edges move, and what only gets smaller there is leaving.
+int64_t Tracker::movedBy(const Track& track) const {
+  const int64_t dx = track.x - track.stillX, dy = track.foot - track.stillFoot;
+  if (track.isConfirmed || !track.isFromBorder)
+    return integerSqrt(static_cast<uint64_t>(dx * dx + dy * dy));
+  const Box box = inflate(track.box(), 2 * stepPx_);
+  const int64_t wider = (track.size.width - track.stillSize.width) / 2;
+  const int64_t higher = track.size.height - track.stillSize.height;
+  const bool atLeft = box.x <= 0, atRight = box.right() >= frame_.width;
+  const bool atTop = box.y <= 0, atBottom = box.bottom() >= frame_.height;
+  const auto inwards = [](bool isAtLow, bool isAtHigh, int64_t low, int64_t high) {
+    if (isAtLow != isAtHigh) return isAtLow ? high : -low;
+    return isAtLow || (low < 0) != (high < 0) ? 0 : std::min(std::abs(low), std::abs(high));
+  };
+  return inwards(atLeft, atRight, dx - wider, dx + wider) +
+         inwards(atTop, atBottom, dy - higher, dy);
+}
+
+void Tracker::settleState(Track& track, int64_t stepNs) const {
+  // In the middle of the picture only what left something behind appears, and who comes out of
+  // somebody: of the former more is asked.
+  const int64_t leave = track.size.height /
+                        (track.isConfirmed || track.isFromBorder || !track.parents.empty() ? 6 : 3);
+  track.stillNs += stepNs;
+  const bool hasLeft = movedBy(track) > leave && (track.isConfirmed || !track.isStanding);
+  if (hasLeft || (!track.isConfirmed && (track.stillNs > kCreepNs || track.isStanding))) {
+    track.stillNs = 0;
+    track.stillX = track.x;
+    track.stillFoot = track.foot;
+    track.stillSize = track.size;
+  }
+  track.hasMoved |= track.stillNs == 0 && hasLeft;
+  const int64_t wayX = track.x - track.originX, wayY = track.foot - track.originFoot;
+  track.hasTravelled |= 2 * (std::abs(wayX) + std::abs(wayY)) >= track.size.width;
+  if (track.hits >= kConfirmHits && track.hasMoved) track.isConfirmed = true;
+  if (!track.isConfirmed) return;
+  if (track.isSeen)
+    track.state = track.stillNs >= kStillNs ? ObjectState::Stopped : ObjectState::Tracked;
+  // What was seen for a moment only is not believed to be there when it isn't seen.
+  else if (isSizeKnown(track) && 2 * track.unseenNs <= track.seenNs &&
+           (track.unseenNs <= kMissNs || (track.state != ObjectState::Lost && isCovered(track))))
+    track.state = ObjectState::Occluded;
+  else
+    track.state = ObjectState::Lost;
+}
+
+/// A new object, and what it came out of if that is still there.
+void Tracker::tellNew(const Track& track) {
+  events_.push_back({EventKind::ObjectNew, {track.id}});
+  for (const Track& parent : tracks_)
+    if (!track.parents.empty() && parent.id == track.parents.front() && parent.isConfirmed)
+      events_.push_back({EventKind::Split, {parent.id, track.id}});
+}
+
+/// Whether the last bit of a track is about to leave the picture: what is seen there next may be
+/// somebody who comes in. A portrait tells them apart.
+bool Tracker::isLeaving(const Track& track) const {
+  const Box box = track.box();
+  if (!track.isConfirmed || isFaithful(track) ||
+      8 * intersect(box, boundsOf(frame_)).area() >= box.area())
+    return false;
+  return (box.x < 0 && track.speedX < 0) || (box.right() > frame_.width && track.speedX > 0) ||
+         (box.y < 0 && track.speedY < 0) || (box.bottom() > frame_.height && track.speedY > 0);
+}
+
+/// States of all tracks; ends those that are gone and says so.
+void Tracker::settle(int64_t stepNs, const TrackerParams& params) {
+  clutter_.age(stepNs);
+  if (endsAll_)
+    for (const uint64_t id : told_.alive) events_.push_back({EventKind::ObjectEnd, {id}});
+  endsAll_ = false;
+  trackIndex_.assign(tracks_.size(), 0);
+  size_t kept = 0;
+  const size_t count = tracks_.size();
+  for (size_t i = 0; i < count; ++i) {
+    Track& track = tracks_[i];
+    const bool wasConfirmed = track.isConfirmed;
+    settleState(track, stepNs);
+    const Box box = track.box();
+    const bool hasLeft = !track.isSeen && frame_.width > 0 &&
+                         2 * intersect(box, boundsOf(frame_)).area() < box.area();
+    const bool isOver =
+        track.isOver || hasLeft || isLeaving(track) ||
+        (track.isConfirmed ? track.unseenNs > params.maxLostNs : track.unseenNs > kFlickerNs);
+    if (!wasConfirmed && track.isConfirmed) tellNew(track);
+    if (isOver) {
+      if (track.isConfirmed) events_.push_back({EventKind::ObjectEnd, {track.id}});
+      if (!track.isOver && track.seenNs < kClutterNs)
+        clutter_.learn(intersect(box, boundsOf(frame_)).area() * track.fill / 256);
+      continue;
+    }
+    trackIndex_[i] = static_cast<uint16_t>(kept + 1);
+    if (kept != i) tracks_[kept] = std::move(track);
+    ++kept;
+  }
+  tracks_.resize(kept);
+  if (kept == count) return;
+  for (uint16_t& owner : owner_)
+    if (owner != 0) owner = trackIndex_[owner - 1u];
+}
+
+}  // namespace rg::objects

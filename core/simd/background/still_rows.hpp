@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The hot loop of core/background/ghosts/still_parts.hpp over the columns of one word, by the
+// widest instructions there are.
+//
+// The same bits on every target. plain:: is the reference that the tests compare with.
+#pragma once
+
+#include "core/simd/background/consensus_rows.hpp"
+
+#include <array>
+#include <cstdint>
+
+namespace rg::background {
+
+/// 64 columns: their colours now, the colours that they keep, and for how many frames they have.
+struct StillWord {
+  std::array<const uint8_t*, 3> pixels;
+  std::array<uint8_t*, 3> kept;
+  uint16_t* ages;
+  int channels;         ///< 1 or 3.
+  uint64_t foreground;  ///< A bit a column.
+};
+
+namespace plain {
+/// Ages foreground columns whose colour is within the radius of the one that they keep, makes the
+/// others younger; those of age 0 keep their present colour from now on. Columns of the background
+/// have age 0.
+void followStillWord(const StillWord& word, const RadiusRow& radius);
+}  // namespace plain
+
+namespace simd {
+void followStillWord(const StillWord& word, const RadiusRow& radius);
+}  // namespace simd
+
+}  // namespace rg::background

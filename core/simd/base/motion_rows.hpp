@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The loops over one row that core/objects/merge/own_motion.cpp, core/motion/motion_refinement.cpp
+// and core/motion/padded_luma.cpp are made of, compiled for every instruction set.
+//
+// Each is written once, in plain integer arithmetic on independent pixels; the compiler makes the
+// vectors. So all targets, the plain one among them, give the same bits.
+#pragma once
+
+#include <cstdint>
+
+namespace rg::simd {
+
+/// to[i] = the mean of above[i], at[i] and below[i], weights 1 2 1, of each of which the mean with
+/// its left and right neighbours is taken before, weights 1 2 1, too. Means are rounded; the row's
+/// ends repeat.
+struct ThreeRows {
+  const uint8_t *above, *at, *below;
+};
+void smoothRow(const ThreeRows& rows, int count, uint8_t* to);
+
+/// to[i] = the mean of upper[i], upper[i + 1], lower[i] and lower[i + 1], of which the right ones
+/// weigh `right` and the lower ones `low` sixteenths.
+struct WarpRow {
+  const uint8_t *upper, *lower;
+  int right, low;
+};
+void warpRow(const WarpRow& row, int count, uint8_t* to);
+
+/// to[i] = the sum of the boxes of 4x4 pixels from [i] on of four rows; they have 3 more columns.
+struct BoxRows {
+  const uint8_t* rows[4];
+};
+void sumBoxRow(const BoxRows& from, int count, uint16_t* to);
+
+/// Sums of |now − still| and |now − moved|.
+struct DifferenceSums {
+  uint32_t still = 0;
+  uint32_t moved = 0;
+};
+struct ComparedRows {
+  const uint8_t *now, *still, *moved;
+};
+[[nodiscard]] DifferenceSums sumDifferences(const ComparedRows& rows, int count);
+
+/// Whether any of them is not 0.
+[[nodiscard]] bool isAnySet(const uint16_t* values, int count);
+
+/// Raises smaller values to `to`.
+void raiseRow(uint16_t* values, int count, uint16_t to);
+
+}  // namespace rg::simd
