@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/background/background.hpp"
 
-#include "core/background/background_method.hpp"
+#include "core/background/method.hpp"
 #include "core/base/components.hpp"
 #include "core/base/memory/pool.hpp"
 #include "core/base/renewed_stage.hpp"
@@ -29,32 +29,32 @@ class CpuBackgroundStage final : public Stage {
   void reset(Reset what) override;
 
  private:
-  BackgroundMethodModel& modelOf(Method method);
+  MethodModel& modelOf(Method method);
 
   Context context_;
   FrameClock clock_;
   Size size_;
   bool isGrey_ = false;
   std::optional<Method> method_;
-  std::unique_ptr<BackgroundMethodModel> model_;
+  std::unique_ptr<MethodModel> model_;
   Components parts_;
   Pool<Foreground> pool_;
 };
 
-std::unique_ptr<BackgroundMethodModel> makeModel(Method method) {
+std::unique_ptr<MethodModel> makeModel(Method method) {
   switch (method) {
     case Method::Paper:
-      return makePaperBackground();
+      return makePaperMethod();
     case Method::FrameDifference:
-      return makeFrameDifferenceBackground();
+      return makeDifferenceMethod();
     case Method::Hybrid:
       break;
   }
-  return makeHybridBackground();
+  return makeConsensusMethod();
 }
 
 /// Another method starts anew: the models have nothing in common.
-BackgroundMethodModel& CpuBackgroundStage::modelOf(Method method) {
+MethodModel& CpuBackgroundStage::modelOf(Method method) {
   if (!model_ || method_ != method) {
     model_ = makeModel(method);
     method_ = method;
@@ -71,7 +71,7 @@ Result<std::shared_ptr<const Foreground>> CpuBackgroundStage::process(
                  std::to_string(size_.height) + " within a stream"};
   if (params.interest && params.interest->size() != size)
     return Error{"the mask of interest was made for another frame size"};
-  BackgroundMethodModel& model = modelOf(params.method);
+  MethodModel& model = modelOf(params.method);
   model.prepare(*picture);
   size_ = size;
   isGrey_ = picture->isGrey();

@@ -50,11 +50,11 @@ void CellSearch::addArea(const Box& areaPx) {
     for (int x = left; x < right; ++x) {
       if (seeds[x] != 0) continue;
       seeds[x] = 1;
-      const bool continues = runs_.size() > first && runs_.back().y == y && runs_.back().last == x;
+      const bool continues = runs_.size() > first && runs_.back().y == y && runs_.back().end == x;
       if (continues)
-        ++runs_.back().last;
+        ++runs_.back().end;
       else
-        runs_.push_back({y, x, x + 1});
+        runs_.push_back(runOf(y, x, x + 1));
     }
   }
   if (runs_.size() > first) tasks_.push_back({first, runs_.size()});
@@ -75,38 +75,38 @@ void CellSearch::addHits(const uint8_t* changes, int y, int threshold) {
   }
 }
 
-Segment CellSearch::pixelsOf(const CellRun& cells, int row) const {
-  return {cells.y * kCellPx + row, cells.first * kCellPx,
-          std::min(cells.last * kCellPx, frame_.width)};
+Run CellSearch::pixelsOf(const Run& cells, int row) const {
+  return runOf(cells.y * kCellPx + row, cells.begin * kCellPx,
+               std::min(cells.end * kCellPx, frame_.width));
 }
 
-void CellSearch::look(const CellRun& cells, const Comparison& what) {
+void CellSearch::look(const Run& cells, const Comparison& what) {
   const int rows = std::min(kCellPx, frame_.height - cells.y * kCellPx);
   for (int row = 0; row < rows; ++row) {
-    const Segment at = pixelsOf(cells, row);
-    uint8_t* out = pixels_.row(at.y + 1) + 1 + at.first;
+    const Run at = pixelsOf(cells, row);
+    uint8_t* out = pixels_.row(at.y + 1) + 1 + at.begin;
     if (what.before.green.data)
       markChange(what.now, what.before, at, what.threshold, out);
     else
-      std::fill_n(out, at.last - at.first, uint8_t{0});
+      std::fill_n(out, at.end - at.begin, uint8_t{0});
   }
   count(cells);
-  std::copy(found_.row(cells.y) + cells.first, found_.row(cells.y) + cells.last,
-            moved_.row(cells.y) + cells.first);
+  std::copy(found_.row(cells.y) + cells.begin, found_.row(cells.y) + cells.end,
+            moved_.row(cells.y) + cells.begin);
 }
 
-void CellSearch::recall(const CellRun& cells, const Comparison& what) {
+void CellSearch::recall(const Run& cells, const Comparison& what) {
   const int rows = std::min(kCellPx, frame_.height - cells.y * kCellPx);
   for (int row = 0; row < rows; ++row) {
-    const Segment at = pixelsOf(cells, row);
-    what.memory.addStrange(what.now, at, what.sceneThreshold, pixels_.row(at.y + 1) + 1 + at.first);
+    const Run at = pixelsOf(cells, row);
+    what.memory.addStrange(what.now, at, what.sceneThreshold, pixels_.row(at.y + 1) + 1 + at.begin);
   }
   count(cells);
 }
 
-void CellSearch::count(const CellRun& cells) {
+void CellSearch::count(const Run& cells) {
   const int rows = std::min(kCellPx, frame_.height - cells.y * kCellPx);
-  for (int x = cells.first; x < cells.last; ++x) {
+  for (int x = cells.begin; x < cells.end; ++x) {
     uint64_t sums = 0;  // At most 8 in each byte.
     for (int row = 0; row < rows; ++row) {
       uint64_t word = 0;
@@ -122,7 +122,7 @@ void CellSearch::count(const CellRun& cells) {
 void CellSearch::run(SearchScope search, const Comparison& what, const Executor& executor) {
   const int cells = static_cast<int>(found_.size().area());
   size_t seeds = hits_.size();
-  for (const CellRun& run : runs_) seeds += static_cast<size_t>(run.last - run.first);
+  for (const Run& run : runs_) seeds += static_cast<size_t>(run.end - run.begin);
   // From half of the frame on, going from cell to cell costs more than it saves.
   if (search == SearchScope::Frame || seeds * 2 > static_cast<size_t>(cells))
     lookEverywhere(what, executor);
@@ -133,7 +133,7 @@ void CellSearch::run(SearchScope search, const Comparison& what, const Executor&
 
 void CellSearch::lookEverywhere(const Comparison& what, const Executor& executor) {
   executor.forRows(found_.height(), [&](int first, int last) {
-    for (int y = first; y < last; ++y) look({y, 0, found_.width()}, what);
+    for (int y = first; y < last; ++y) look(runOf(y, 0, found_.width()), what);
   });
   executor.forEach(static_cast<int>(tasks_.size()), [&](int task) {
     const auto [first, last] = tasks_[static_cast<size_t>(task)];
@@ -152,8 +152,8 @@ void CellSearch::lookInAreas(const Comparison& what, const Executor& executor) {
   });
   looked_ = 0;
   frontier_.clear();
-  for (const CellRun& run : runs_)
-    for (int x = run.first; x < run.last; ++x) note(x, run.y, frontier_);
+  for (const Run& run : runs_)
+    for (int x = run.begin; x < run.end; ++x) note(x, run.y, frontier_);
   next_.clear();
   for (const Point& hit : hits_) note(hit.x, hit.y, next_);
   lookAtCells(next_, what, executor);
@@ -184,7 +184,7 @@ void CellSearch::lookAtCells(std::span<const Point> cells, const Comparison& wha
     const size_t first = static_cast<size_t>(task) * kCellsInTask;
     for (const Point& cell :
          cells.subspan(first, std::min<size_t>(kCellsInTask, cells.size() - first)))
-      look({cell.y, cell.x, cell.x + 1}, what);
+      look(runOf(cell.y, cell.x, cell.x + 1), what);
   });
 }
 
@@ -197,7 +197,7 @@ void CellSearch::note(int x, int y, std::vector<Point>& cells) {
 void CellSearch::findParts() {
   findComponents(isOccupied_, 255, Connectivity::Eight, parts_);
   hasSeed_.assign(parts_.list.size(), 0);
-  for (const Run& run : parts_.runs) {
+  for (const ComponentRun& run : parts_.runs) {
     const uint8_t* seeds = isSeed_.row(run.y);
     if (std::any_of(seeds + run.begin, seeds + run.end, [](uint8_t seed) { return seed != 0; }))
       hasSeed_[run.component] = 1;

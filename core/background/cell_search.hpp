@@ -17,6 +17,7 @@
 #include "core/background/scene_memory.hpp"
 #include "core/base/components.hpp"
 #include "core/base/memory/executor.hpp"
+#include "core/base/run.hpp"
 
 #include <cstdint>
 #include <span>
@@ -33,7 +34,7 @@ inline constexpr int kLeastOccupied = 4;
       {cells.x * kCellPx, cells.y * kCellPx, cells.width * kCellPx, cells.height * kCellPx},
       boundsOf(frame));
 }
-[[nodiscard]] constexpr Box pixelsOfCells(const Run& run, Size frame) {
+[[nodiscard]] constexpr Box pixelsOfCells(const ComponentRun& run, Size frame) {
   return pixelsOfCells(Box{run.begin, run.y, run.end - run.begin, 1}, frame);
 }
 
@@ -74,17 +75,14 @@ class CellSearch {
   [[nodiscard]] int lookedAt() const { return looked_; }
 
  private:
-  struct CellRun {
-    int y = 0, first = 0, last = 0;
-  };
   struct Task {
     size_t first = 0, last = 0;
   };
 
-  [[nodiscard]] Segment pixelsOf(const CellRun& cells, int row) const;
-  void look(const CellRun& cells, const Comparison& what);
-  void recall(const CellRun& cells, const Comparison& what);
-  void count(const CellRun& cells);
+  [[nodiscard]] Run pixelsOf(const Run& cells, int row) const;
+  void look(const Run& cells, const Comparison& what);
+  void recall(const Run& cells, const Comparison& what);
+  void count(const Run& cells);
   void lookEverywhere(const Comparison& what, const Executor& executor);
   void lookInAreas(const Comparison& what, const Executor& executor);
   void follow(const Comparison& what, const Executor& executor);
@@ -96,8 +94,8 @@ class CellSearch {
   int looked_ = 0;
   Image<uint8_t> pixels_;  ///< With a border of one pixel.
   Image<uint8_t> found_, moved_, isOccupied_, isSeed_, isLooked_;
-  std::vector<CellRun> runs_;  ///< Of the areas, disjoint.
-  std::vector<Task> tasks_;    ///< One an area.
+  std::vector<Run> runs_;    ///< Of the areas, disjoint.
+  std::vector<Task> tasks_;  ///< One an area.
   std::vector<Point> hits_, frontier_, next_;
   std::vector<uint8_t> isHit_;  ///< Of each pixel of a row, in whole cells.
   Components parts_;

@@ -8,13 +8,13 @@
 namespace rg::background {
 namespace {
 
-RowPair rowPairAt(const ColourPlanes& a, const ColourPlanes& b, const Segment& at) {
+RowPair rowPairAt(const ColourPlanes& a, const ColourPlanes& b, const Run& at) {
   const auto rows = [&](const ColourPlanes& planes) -> std::array<const uint8_t*, 3> {
-    return {planes.green.row(at.y) + at.first, planes.red.row(at.y) + at.first,
-            planes.blue.row(at.y) + at.first};
+    return {planes.green.row(at.y) + at.begin, planes.red.row(at.y) + at.begin,
+            planes.blue.row(at.y) + at.begin};
   };
   const bool isGrey = a.red.data == a.green.data || b.red.data == b.green.data;
-  return {rows(a), rows(b), isGrey ? 1 : 3, at.last - at.first};
+  return {rows(a), rows(b), isGrey ? 1 : 3, at.end - at.begin};
 }
 
 }  // namespace
@@ -31,24 +31,24 @@ ColourPlanes everyRow(const ColourPlanes& planes, int first, int step) {
   return {thin(planes.red), thin(planes.green), thin(planes.blue)};
 }
 
-void measureChange(const ColourPlanes& a, const ColourPlanes& b, const Segment& at, uint8_t* out) {
+void measureChange(const ColourPlanes& a, const ColourPlanes& b, const Run& at, uint8_t* out) {
   simd::measureDistances(rowPairAt(a, b, at), out);
 }
 
-void markChange(const ColourPlanes& a, const ColourPlanes& b, const Segment& at, int threshold,
+void markChange(const ColourPlanes& a, const ColourPlanes& b, const Run& at, int threshold,
                 uint8_t* out) {
   simd::markFar(rowPairAt(a, b, at), static_cast<uint8_t>(threshold), out);
 }
 
-void addStrange(const ColourPlanes& a, const ColourPlanes& b, const Segment& at, int threshold,
+void addStrange(const ColourPlanes& a, const ColourPlanes& b, const Run& at, int threshold,
                 const uint8_t* isKnown, uint8_t* out) {
   simd::addFar(rowPairAt(a, b, at), static_cast<uint8_t>(threshold), isKnown, out);
 }
 
-void keepDense(const uint8_t* above, const uint8_t* row, const uint8_t* below, const Segment& at,
+void keepDense(const uint8_t* above, const uint8_t* row, const uint8_t* below, const Run& at,
                uint8_t* out) {
-  simd::keepDense({above + at.first, row + at.first, below + at.first}, at.last - at.first,
-                  out + at.first);
+  simd::keepDense({above + at.begin, row + at.begin, below + at.begin}, at.end - at.begin,
+                  out + at.begin);
 }
 
 }  // namespace rg::background

@@ -5,17 +5,11 @@
 #include "core/background/shadows/shadow.hpp"
 #include "core/base/memory/image.hpp"
 #include "core/base/picture.hpp"
+#include "core/base/run.hpp"
 
 #include <cstdint>
 
 namespace rg::background {
-
-/// Columns first … last − 1 of row y.
-struct Segment {
-  int y = 0;
-  int first = 0;
-  int last = 0;
-};
 
 [[nodiscard]] ColourPlanes planesOf(const Picture& picture);
 
@@ -23,19 +17,19 @@ struct Segment {
 [[nodiscard]] ColourPlanes everyRow(const ColourPlanes& planes, int first, int step);
 
 /// out[x]: largest absolute difference of a channel. Both pictures have the same size.
-void measureChange(const ColourPlanes& a, const ColourPlanes& b, const Segment& at, uint8_t* out);
+void measureChange(const ColourPlanes& a, const ColourPlanes& b, const Run& at, uint8_t* out);
 
 /// out[x]: 255 where that difference is above `threshold`, else 0. threshold 0 … 255.
-void markChange(const ColourPlanes& a, const ColourPlanes& b, const Segment& at, int threshold,
+void markChange(const ColourPlanes& a, const ColourPlanes& b, const Run& at, int threshold,
                 uint8_t* out);
 
 /// Sets out[x] to 255 where the difference is above `threshold` and isKnown[x] is 255, too.
-void addStrange(const ColourPlanes& a, const ColourPlanes& b, const Segment& at, int threshold,
+void addStrange(const ColourPlanes& a, const ColourPlanes& b, const Run& at, int threshold,
                 const uint8_t* isKnown, uint8_t* out);
 
 /// Columns of `at`: out[x] is 255 where at least four of the square of 3x3 around the pixel are
 /// 255, else 0. The rows hold 0 or 255 and can be read one column to the left and right.
-void keepDense(const uint8_t* above, const uint8_t* row, const uint8_t* below, const Segment& at,
+void keepDense(const uint8_t* above, const uint8_t* row, const uint8_t* below, const Run& at,
                uint8_t* out);
 
 }  // namespace rg::background

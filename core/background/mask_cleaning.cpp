@@ -82,7 +82,7 @@ void keepSupported(BitMask& mask, const BitMask& strong, uint32_t leastPx,
   findComponents(mask, true, Connectivity::Eight, found);
   // The area is not needed any more: it takes the count.
   for (Component& component : found.list) component.areaPx = 0;
-  for (const Run& run : found.runs) {
+  for (const ComponentRun& run : found.runs) {
     const int count = countColumns(strong.row(run.y), run.begin, run.end);
     found.list[run.component].areaPx += static_cast<uint32_t>(count);
   }

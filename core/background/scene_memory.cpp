@@ -18,13 +18,13 @@ ColourPlanes SceneMemory::planes() const {
   return {seen_[channels_ == 1 ? 0 : 1], seen_[0], seen_[channels_ == 1 ? 0 : 2]};
 }
 
-void SceneMemory::learn(const ColourPlanes& now, const Segment& at) {
+void SceneMemory::learn(const ColourPlanes& now, const Run& at) {
   const std::array from{now.green, now.red, now.blue};
   for (size_t c = 0; c < static_cast<size_t>(channels_); ++c) {
     const uint8_t* row = from[c].row(at.y);
-    std::copy(row + at.first, row + at.last, seen_[c].row(at.y) + at.first);
+    std::copy(row + at.begin, row + at.end, seen_[c].row(at.y) + at.begin);
   }
-  std::fill(known_.row(at.y) + at.first, known_.row(at.y) + at.last, uint8_t{255});
+  std::fill(known_.row(at.y) + at.begin, known_.row(at.y) + at.end, uint8_t{255});
 }
 
 }  // namespace rg::background

@@ -21,11 +21,11 @@ class SceneMemory {
   /// Allocates for such pictures; a picture of another kind forgets everything.
   void prepare(const Picture& picture);
   void forget() { known_.fill(0); }
-  void learn(const ColourPlanes& now, const Segment& at);
+  void learn(const ColourPlanes& now, const Run& at);
   /// Sets out[x] to 255 where the scene is known and the picture differs from it by more than
   /// `threshold`.
-  void addStrange(const ColourPlanes& now, const Segment& at, int threshold, uint8_t* out) const {
-    background::addStrange(now, planes(), at, threshold, known_.row(at.y) + at.first, out);
+  void addStrange(const ColourPlanes& now, const Run& at, int threshold, uint8_t* out) const {
+    background::addStrange(now, planes(), at, threshold, known_.row(at.y) + at.begin, out);
   }
 
   [[nodiscard]] ColourPlanes planes() const;

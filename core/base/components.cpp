@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/base/components.hpp"
 
+#include "core/base/forest.hpp"
+
 #include <algorithm>
 
 namespace rg {
@@ -18,28 +20,9 @@ int findColumn(const uint64_t* row, int x, int width, uint64_t other) {
   return std::min(width, word * kWordColumns + std::countr_zero(bits));
 }
 
-uint32_t findRoot(std::vector<uint32_t>& parents, uint32_t run) {
-  while (parents[run] != run) {
-    parents[run] = parents[parents[run]];
-    run = parents[run];
-  }
-  return run;
-}
-
-/// Runs are in raster order, so the smallest run holds the smallest pixel.
-void join(std::vector<uint32_t>& parents, uint32_t a, uint32_t b) {
-  a = findRoot(parents, a);
-  b = findRoot(parents, b);
-  if (a < b) {
-    parents[b] = a;
-  } else {
-    parents[a] = b;
-  }
-}
-
 /// Joins the runs [current, end) of one row with those of the row above that touch them.
 void joinRows(Components& found, size_t above, size_t current, size_t end, int reach) {
-  const std::vector<Run>& runs = found.runs;
+  const std::vector<ComponentRun>& runs = found.runs;
   const size_t aboveEnd = current;
   for (size_t i = current; i < end; ++i) {
     while (above < aboveEnd && runs[above].end + reach <= runs[i].begin) ++above;
@@ -58,7 +41,7 @@ void collectRuns(const BitMask& mask, bool value, Connectivity connectivity, Com
     for (int x = findColumn(row, 0, mask.width(), unwanted); x < mask.width();) {
       const int end = findColumn(row, x, mask.width(), ~unwanted);
       found.parents.push_back(static_cast<uint32_t>(found.runs.size()));
-      found.runs.push_back({y, x, end, 0});
+      found.runs.push_back({runOf(y, x, end), 0});
       x = findColumn(row, end, mask.width(), unwanted);
     }
     joinRows(found, above, current, found.runs.size(), reach);
@@ -74,7 +57,7 @@ void findComponents(const BitMask& mask, bool value, Connectivity connectivity, 
   found.list.clear();
   collectRuns(mask, value, connectivity, found);
   for (uint32_t i = 0; i < found.runs.size(); ++i) {
-    Run& run = found.runs[i];
+    ComponentRun& run = found.runs[i];
     // A parent lies before its run, so it has its number already.
     const uint32_t parent = found.parents[i];
     const Box box{run.begin, run.y, run.end - run.begin, 1};
@@ -99,13 +82,13 @@ void findComponents(ImageView<const uint8_t> mask, uint8_t value, Connectivity c
 
 void paintComponents(const Components& found, std::span<const uint8_t> isChosen, bool value,
                      BitMask& mask) {
-  for (const Run& run : found.runs)
+  for (const ComponentRun& run : found.runs)
     if (isChosen[run.component] != 0) setColumns(mask.row(run.y), run.begin, run.end, value);
 }
 
 void paintComponents(const Components& found, std::span<const uint8_t> isChosen, uint8_t value,
                      ImageView<uint8_t> mask) {
-  for (const Run& run : found.runs)
+  for (const ComponentRun& run : found.runs)
     if (isChosen[run.component] != 0)
       std::fill(mask.row(run.y) + run.begin, mask.row(run.y) + run.end, value);
 }

@@ -9,6 +9,7 @@
 #include "core/base/bit_mask.hpp"
 #include "core/base/geometry.hpp"
 #include "core/base/memory/image.hpp"
+#include "core/base/run.hpp"
 
 #include <cstdint>
 #include <span>
@@ -16,11 +17,8 @@
 
 namespace rg {
 
-/// Pixels begin … end − 1 of row y, all of one component.
-struct Run {
-  int y = 0;
-  int begin = 0;
-  int end = 0;
+/// Its pixels are all of one component.
+struct ComponentRun : Run {
   uint32_t component = 0;  ///< Index into Components::list.
 };
 
@@ -32,7 +30,7 @@ struct Component {
 
 /// Result and scratch in one; keep it from frame to frame and nothing is allocated.
 struct Components {
-  std::vector<Run> runs;
+  std::vector<ComponentRun> runs;
   std::vector<Component> list;
   std::vector<uint32_t> parents;  ///< Scratch.
   BitMask bits;                   ///< Scratch.

@@ -26,7 +26,8 @@ void addStep(const EdgeTest& test, Point p, Point direction, GapContour& contour
   ++contour.pixels;
 }
 
-void readRun(const EdgeTest& test, const BitMask& thick, const Run& run, GapContour& contour) {
+void readRun(const EdgeTest& test, const BitMask& thick, const ComponentRun& run,
+             GapContour& contour) {
   const int width = thick.width(), height = thick.height();
   if (run.begin == 0) contour.frameSides |= 1;
   if (run.y == 0) contour.frameSides |= 2;
@@ -54,7 +55,7 @@ bool fillUnedged(ImageView<const uint8_t> picture, int mostStep, uint32_t mostPx
   findComponents(scratch.thick, false, Connectivity::Four, scratch.parts);
   const std::vector<Component>& list = scratch.parts.list;
   scratch.contours.assign(list.size(), {});
-  for (const Run& run : scratch.parts.runs)
+  for (const ComponentRun& run : scratch.parts.runs)
     if (list[run.component].areaPx <= mostPx)
       readRun({picture, margin + 2, mostStep}, scratch.thick, run, scratch.contours[run.component]);
   scratch.isChosen.resize(list.size());
@@ -66,7 +67,7 @@ bool fillUnedged(ImageView<const uint8_t> picture, int mostStep, uint32_t mostPx
   if (!isAny) return false;
   paintComponents(scratch.parts, scratch.isChosen, true, mask);
   // The rim that the thickening took from the gap.
-  for (const Run& run : scratch.parts.runs) {
+  for (const ComponentRun& run : scratch.parts.runs) {
     if (scratch.isChosen[run.component] == 0) continue;
     const int top = std::max(0, run.y - margin),
               bottom = std::min(mask.height() - 1, run.y + margin);

@@ -4,6 +4,7 @@
 
 #include "core/base/memory/executor.hpp"
 #include "core/base/memory/image.hpp"
+#include "core/base/run.hpp"
 
 #include <cstdint>
 #include <vector>
@@ -18,13 +19,6 @@ inline constexpr uint8_t kInScopeApart = 254;
 [[nodiscard]] constexpr bool isInScope(uint8_t value) {
   return value >= kInScopeApart;
 }
-
-/// Columns first … last − 1 of a row.
-struct Span {
-  int first = 0;
-  int last = 0;
-  [[nodiscard]] constexpr int count() const { return last > first ? last - first : 0; }
-};
 
 /// Of each row, the columns outside which no pixel is in scope.
 class RowSpans {

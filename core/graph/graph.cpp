@@ -91,7 +91,7 @@ class GraphBuilder {
   }
 
   /// Hands the runs out to the places that their regions have for them.
-  void placeRuns(const Band& band, BandSums& sums, std::vector<RegionRun>& list) const {
+  void placeRuns(const Band& band, BandSums& sums, std::vector<Run>& list) const {
     for (int y = band.first; y < band.last; ++y) {
       const uint16_t* ids = labels_.ids.row(y);
       const auto begins = runsOf(y, band, sums);

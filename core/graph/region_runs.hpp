@@ -3,6 +3,8 @@
 // cost follows the region's pixels and not its box.
 #pragma once
 
+#include "core/base/run.hpp"
+
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -10,14 +12,6 @@
 #include <vector>
 
 namespace rg::graph {
-
-/// Pixels begin … end − 1 of row y, all of one region, that go on to neither side.
-struct RegionRun {
-  uint16_t y = 0;
-  uint16_t begin = 0;
-  uint16_t end = 0;
-  friend constexpr bool operator==(const RegionRun&, const RegionRun&) = default;
-};
 
 /// How far from `begin` on, at most to `end`, a row's values are those of its begin. Long runs are
 /// passed by four values at a time.
@@ -34,10 +28,11 @@ struct RegionRun {
 }
 
 struct RegionRuns {
-  std::vector<RegionRun> list;   ///< By region, then by row, then by column.
+  std::vector<Run> list;         ///< By region, then by row, then by column; none
+                                 ///< goes on to either side.
   std::vector<uint32_t> starts;  ///< Those of region i: starts[i] … starts[i + 1] − 1.
 
-  [[nodiscard]] std::span<const RegionRun> of(size_t region) const {
+  [[nodiscard]] std::span<const Run> of(size_t region) const {
     return {list.data() + starts[region], starts[region + 1] - starts[region]};
   }
 };

@@ -86,14 +86,14 @@ void MatchedBlocks::collect(const graph::Graph& graph, Chunk& chunk) {
     const size_t begin = chunk.stripFirst = chunk.parts.size();
     const auto label = static_cast<uint16_t>(region + 1);
     const auto runs = graph.runs.of(region);
-    for (const graph::RegionRun& run : runs) addInner(run, label, chunk);
+    for (const Run& run : runs) addInner(run, label, chunk);
     closeStrip(chunk);
     const uint32_t inner = countPixels(std::span(chunk.parts).subspan(begin));
     if (inner < kLeastInnerPx || inner < graph.regions[region].areaPx / kInnerShare) {
       chunk.parts.resize(begin);
       chunk.stripFirst = begin;
       std::pair<int, int> open{-1, 0};
-      for (const graph::RegionRun& run : runs) addHalves(run, label, open, chunk);
+      for (const Run& run : runs) addHalves(run, label, open, chunk);
       closeStrip(chunk);
     }
     keepEnough(graph.labels->picture->luma(), chunk, begin);
@@ -113,7 +113,7 @@ void MatchedBlocks::keepEnough(ImageView<const uint8_t> luma, Chunk& chunk, size
   chunk.stripFirst = chunk.parts.size();
 }
 
-void MatchedBlocks::addInner(const graph::RegionRun& run, uint16_t label, Chunk& chunk) const {
+void MatchedBlocks::addInner(const Run& run, uint16_t label, Chunk& chunk) const {
   const int begin = run.begin == 0 ? 0 : run.begin + kBorderReach;
   const int end = run.end == size_.width ? run.end : run.end - kBorderReach;
   const int first = (begin + kBlockWidth - 1) / kBlockWidth * kBlockWidth;
@@ -129,8 +129,8 @@ void MatchedBlocks::addInner(const graph::RegionRun& run, uint16_t label, Chunk&
 
 /// open: the block that the runs before ended in, as its number in a picture of whole blocks, and
 /// how many of its pixels they hold.
-void MatchedBlocks::addHalves(const graph::RegionRun& run, uint16_t label,
-                              std::pair<int, int>& open, Chunk& chunk) const {
+void MatchedBlocks::addHalves(const Run& run, uint16_t label, std::pair<int, int>& open,
+                              Chunk& chunk) const {
   const int blocks = size_.width / kBlockWidth;
   for (int block = run.begin / kBlockWidth; block * kBlockWidth < run.end && block < blocks;
        ++block) {
@@ -142,8 +142,7 @@ void MatchedBlocks::addHalves(const graph::RegionRun& run, uint16_t label,
   }
 }
 
-void MatchedBlocks::add(const graph::RegionRun& run, int column, uint64_t halves, uint16_t label,
-                        Chunk& chunk) {
+void MatchedBlocks::add(const Run& run, int column, uint64_t halves, uint16_t label, Chunk& chunk) {
   const int strip = run.y / kPartHeight;
   if (chunk.parts.size() > chunk.stripFirst && chunk.parts[chunk.stripFirst].strip != strip)
     closeStrip(chunk);

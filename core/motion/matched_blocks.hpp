@@ -86,11 +86,9 @@ class MatchedBlocks {
   void findSteady(ImageView<const uint16_t> labels, const Executor& executor);
   void cutChunks(const graph::RegionRuns& runs);
   void collect(const graph::Graph& graph, Chunk& chunk);
-  void addInner(const graph::RegionRun& run, uint16_t label, Chunk& chunk) const;
-  void addHalves(const graph::RegionRun& run, uint16_t label, std::pair<int, int>& open,
-                 Chunk& chunk) const;
-  static void add(const graph::RegionRun& run, int column, uint64_t halves, uint16_t label,
-                  Chunk& chunk);
+  void addInner(const Run& run, uint16_t label, Chunk& chunk) const;
+  void addHalves(const Run& run, uint16_t label, std::pair<int, int>& open, Chunk& chunk) const;
+  static void add(const Run& run, int column, uint64_t halves, uint16_t label, Chunk& chunk);
   static void closeStrip(Chunk& chunk);
   static void keepEnough(ImageView<const uint8_t> luma, Chunk& chunk, size_t begin);
   void dropSmallest();

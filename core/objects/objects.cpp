@@ -13,7 +13,7 @@
 #include "core/objects/tracking/looks/contour.hpp"
 #include "core/objects/tracking/looks/object_pixels.hpp"
 #include "core/objects/tracking/region_owners.hpp"
-#include "core/objects/tracking/stopped_things.hpp"
+#include "core/objects/tracking/standing_tracks.hpp"
 #include "core/objects/tracking/tracker.hpp"
 
 #include <algorithm>
@@ -56,7 +56,7 @@ class CpuObjectStage final : public Stage {
                     Objects& objects);
   void expectLabels(const graph::Graph& graph, int64_t stepNs, Objects& objects);
   void startGroups(std::vector<uint32_t>& groupOf) const;
-  void recallStopped(const graph::Graph& graph, Objects& objects);
+  void recallStanding(const graph::Graph& graph, Objects& objects);
   void tieToGround(const graph::Graph& graph, const MergeWeights& weights,
                    std::vector<GroundEnergy>& energies);
   void markSurroundings(const graph::Graph& graph, const Objects& objects);
@@ -84,11 +84,11 @@ class CpuObjectStage final : public Stage {
   std::shared_ptr<const Picture> previous_;
   OwnMotionScratch ownMotionScratch_;
   std::vector<OwnMotion> own_;  ///< Of each region, under Scope::Frame.
-  StoppedScratch stoppedScratch_;
-  std::vector<StoppedThing> stopped_;  ///< Of each region, under Scope::Frame.
-  std::vector<uint8_t> isOpen_;        ///< Of each region: it may be something else than ground.
+  StandingScratch standingScratch_;
+  std::vector<StandingTrack> standing_;  ///< Of each region, under Scope::Frame.
+  std::vector<uint8_t> isOpen_;          ///< Of each region: it may be something else than ground.
   GroundScratch groundScratch_;
-  Evidence evidence_;
+  GroupGrid evidence_;
   std::vector<uint8_t> isBackgroundRegion_;
   std::vector<ObjectSums> sums_;
   ObjectPixelScratch pixelScratch_;
@@ -159,7 +159,7 @@ void CpuObjectStage::mergeRegions(const motion::Motion& motion, const Params& pa
   if (isStill)
     followTrends(motion, trends_, trend_);
   else
-    recallStopped(graph, objects);
+    recallStanding(graph, objects);
   const motion::Motion& shown = isStill ? trend_ : motion;
   weighArcs(shown, expected_, weights, objects.arcs);
   startGroups(groupOf);
@@ -188,25 +188,25 @@ void CpuObjectStage::tieToGround(const graph::Graph& graph, const MergeWeights& 
   energies.clear();
   isOpen_.clear();
   for (size_t r = 0; r < own_.size(); ++r) {
-    const bool isStopped = stopped_[r].track != 0;
+    const bool isStopped = standing_[r].track != 0;
     // That it moves as the ground does says nothing against what has stopped.
     const int64_t gain = isStopped ? std::max<int64_t>(0, own_[r].gain) : own_[r].gain;
-    energies.push_back(
-        weighGround(gain, graph.regions[r].areaPx, expected_[r] != 0, weights, stopped_[r].areaPx));
+    energies.push_back(weighGround(gain, graph.regions[r].areaPx, expected_[r] != 0, weights,
+                                   standing_[r].areaPx));
     isOpen_.push_back(own_[r].isTried() || isStopped);
     ownMotionScratch_.moves[r] |= isStopped;
   }
 }
 
 /// What has stopped is expected where it is seen, whatever it did before.
-void CpuObjectStage::recallStopped(const graph::Graph& graph, Objects& objects) {
-  stopped_.assign(graph.regions.size(), {});
-  findStoppedThings(tracker_.tracks(), *graph.labels, {objects.cameraDx, objects.cameraDy},
-                    graph.regions, stoppedScratch_, stopped_);
-  for (size_t r = 0; r < stopped_.size(); ++r) {
-    if (stopped_[r].track == 0) continue;
-    expected_[r] = stopped_[r].track;
-    objects.regionExpected[r] = tracker_.tracks()[stopped_[r].track - 1].id;
+void CpuObjectStage::recallStanding(const graph::Graph& graph, Objects& objects) {
+  standing_.assign(graph.regions.size(), {});
+  findStandingTracks(tracker_.tracks(), *graph.labels, {objects.cameraDx, objects.cameraDy},
+                     graph.regions, standingScratch_, standing_);
+  for (size_t r = 0; r < standing_.size(); ++r) {
+    if (standing_[r].track == 0) continue;
+    expected_[r] = standing_[r].track;
+    objects.regionExpected[r] = tracker_.tracks()[standing_[r].track - 1].id;
   }
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/segmentation/absorption.hpp"
 
+#include "core/base/forest.hpp"
+
 #include <algorithm>
 #include <numeric>
 
@@ -43,8 +45,7 @@ void Absorption::run(const AbsorptionLimits& limits) {
 }
 
 uint32_t Absorption::representative(uint32_t i) {
-  while (forest_[i] != i) i = forest_[i] = forest_[forest_[i]];
-  return i;
+  return rootOf(forest_, i);
 }
 
 void Absorption::chooseAllBelow(uint32_t areaPx) {
@@ -133,12 +134,8 @@ void Absorption::contract() {
     const uint32_t to = chosen(i);
     parents_[i] = chosen(to) == i && i < to ? i : to;
   }
-  const auto root = [&](uint32_t i) {
-    while (parents_[i] != i) i = parents_[i] = parents_[parents_[i]];
-    return i;
-  };
   for (uint32_t i = 0; i < count; ++i) {
-    const uint32_t r = root(i);
+    const uint32_t r = rootOf(parents_, i);
     if (r == i) continue;
     regions_[r].red += regions_[i].red;
     regions_[r].green += regions_[i].green;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/segmentation/pixel_runs.hpp"
 
+#include "core/base/forest.hpp"
 #include "core/simd/segmentation/cell_rows.hpp"
 #include "core/simd/segmentation/link_rows.hpp"
 
@@ -9,21 +10,6 @@
 
 namespace rg::segmentation {
 namespace {
-
-/// Root of a union-find forest whose parents have smaller indices; halves the path.
-uint32_t findRoot(std::vector<uint32_t>& parents, uint32_t i) {
-  while (parents[i] != i) i = parents[i] = parents[parents[i]];
-  return i;
-}
-
-void unite(std::vector<uint32_t>& parents, uint32_t a, uint32_t b) {
-  a = findRoot(parents, a);
-  b = findRoot(parents, b);
-  if (a < b)
-    parents[b] = a;
-  else
-    parents[a] = b;
-}
 
 constexpr int kWordBits = 64;
 
@@ -126,7 +112,7 @@ void PixelRuns::findParts(int index, Scratch& scratch) {
   scratch.touching.makeRoomFor(2 * size_t{lastRun - firstRun});
   for (int y = rows.first + 1; y < rows.last; ++y) {
     collectOverlaps(y, scratch);
-    for (const Overlap& pair : scratch.linked.all()) unite(parents_, pair.upper, pair.lower);
+    for (const Overlap& pair : scratch.linked.all()) join(parents_, pair.upper, pair.lower);
   }
   band.parts.clear();
   band.parts.reserve(lastRun - firstRun);
@@ -187,7 +173,7 @@ void PixelRuns::collectOverlaps(int y, Scratch& scratch) const {
   const uint64_t* links = upLinks_.row(y);
   const uint8_t* scope = hasScope ? scopePlane_.row(y) : nullptr;
   const uint8_t* scopeAbove = hasScope ? scopePlane_.row(y - 1) : nullptr;
-  const PixelRun* runs = runs_.data();
+  const Span* runs = runs_.data();
   scratch.linked.makeRoomFor(rowStart(y + 1) - rowStart(y - 1));
   Overlap *linked = scratch.linked.list.data(), *firstLinked = linked;
   Overlap *touching = scratch.touching.list.data() + scratch.touching.count,
@@ -195,7 +181,7 @@ void PixelRuns::collectOverlaps(int y, Scratch& scratch) const {
   uint32_t i = rowStart(y - 1), j = rowStart(y);
   const uint32_t iEnd = j, jEnd = rowStart(y + 1);
   while (i < iEnd && j < jEnd) {
-    const PixelRun upper = runs[i], lower = runs[j];
+    const Span upper = runs[i], lower = runs[j];
     const int first = std::max(upper.first, lower.first), last = std::min(upper.last, lower.last);
     if (first < last) {
       const bool isLinked =
@@ -225,7 +211,7 @@ void PixelRuns::collectSides(int y, BorderList& borders) const {
 /// What is linked may be cut here: then it is a border, too.
 void PixelRuns::joinSeam(const Scratch& scratch, BorderList& seam) {
   for (const Overlap& pair : scratch.linked.all())
-    unite(whole_, parents_[pair.upper], parents_[pair.lower]);
+    join(whole_, parents_[pair.upper], parents_[pair.lower]);
   for (const Overlaps* pairs : {&scratch.linked, &scratch.touching})
     for (const Overlap& pair : pairs->all())
       seam.add(parents_[pair.upper], parents_[pair.lower], pair.columns);
@@ -245,11 +231,11 @@ void PixelRuns::joinBands() {
       collectOverlaps(y, scratch_[0]);
       joinSeam(scratch_[0], band.seam);
     }
-    for (const uint32_t run : band.cuts) unite(whole_, parents_[run - 1], parents_[run]);
+    for (const uint32_t run : band.cuts) join(whole_, parents_[run - 1], parents_[run]);
   }
   for (const Band& band : bands_)
     for (const uint32_t part : band.parts) {
-      const uint32_t whole = whole_[part] = findRoot(whole_, part);
+      const uint32_t whole = whole_[part] = rootOf(whole_, part);
       wholeAreas_[whole] += areas_[part];
     }
 }

@@ -11,6 +11,7 @@
 #include "core/base/memory/executor.hpp"
 #include "core/base/memory/image.hpp"
 #include "core/base/row_spans.hpp"
+#include "core/base/run.hpp"
 #include "core/segmentation/border_list.hpp"
 #include "core/segmentation/colour_links.hpp"
 
@@ -20,12 +21,6 @@
 #include <vector>
 
 namespace rg::segmentation {
-
-/// Columns first … last − 1 of one row, linked one to the next.
-struct PixelRun {
-  int32_t first = 0;
-  int32_t last = 0;
-};
 
 struct RunLimits {
   uint32_t maxAreaPx = ~uint32_t{0};  ///< Larger components are cut.
@@ -43,7 +38,7 @@ class PixelRuns {
   [[nodiscard]] uint32_t componentCount() const { return componentCount_; }
   /// Index of the first run of row y; y = height gives count().
   [[nodiscard]] uint32_t rowStart(int y) const { return rowStarts_[static_cast<size_t>(y)]; }
-  [[nodiscard]] const PixelRun& run(uint32_t i) const { return runs_[i]; }
+  [[nodiscard]] const Span& run(uint32_t i) const { return runs_[i]; }
   [[nodiscard]] uint32_t component(uint32_t run) const { return components_[parents_[run]]; }
 
   /// Bands of rows that tasks share out: no run of one belongs to the part of another.
@@ -123,7 +118,7 @@ class PixelRuns {
   std::vector<uint64_t> tileStarts_;             ///< Bits of the columns where tiles begin.
   Image<uint64_t> scope_, leftLinks_, upLinks_;  ///< A bit a pixel.
   std::vector<uint32_t> rowStarts_;
-  std::vector<PixelRun> runs_;
+  std::vector<Span> runs_;
   std::vector<uint32_t> parents_;  ///< Of each run the first one of its part.
   std::vector<Band> bands_;
   std::vector<Scratch> scratch_;

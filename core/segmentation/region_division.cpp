@@ -13,7 +13,7 @@ namespace {
 constexpr uint32_t kPieceGrowth = 16;
 
 /// Writes whole blocks where the row goes on: what is written beyond a run is written again.
-void fillRun(const PixelRun& run, uint16_t value, int width, uint16_t* to) {
+void fillRun(const Span& run, uint16_t value, int width, uint16_t* to) {
   constexpr int kBlock = 32;
   int x = run.first;
   for (; x < run.last && x + kBlock <= width; x += kBlock) std::fill_n(to + x, kBlock, value);
@@ -92,7 +92,7 @@ void RegionDivision::addRow(int y) {
                 *blue = planes_.colours[2].row(y);
   const uint8_t* weights = planes_.weights.data != nullptr ? planes_.weights.row(y) : nullptr;
   for (uint32_t i = runs_->rowStart(y); i < runs_->rowStart(y + 1); ++i) {
-    const PixelRun& run = runs_->run(i);
+    const Span& run = runs_->run(i);
     const int count = run.last - run.first;
     Sums& sums = sums_[runs_->part(i)];
     if (weights == nullptr) {
@@ -152,7 +152,7 @@ void RegionDivision::writeRow(int y, uint16_t* ids) const {
   const int width = planes_.size.width;
   int done = 0;
   for (uint32_t i = runs_->rowStart(y); i < runs_->rowStart(y + 1); ++i) {
-    const PixelRun& run = runs_->run(i);
+    const Span& run = runs_->run(i);
     std::fill(ids + done, ids + run.first, uint16_t{0});
     fillRun(run, static_cast<uint16_t>(numbers_[runs_->component(i)]), width, ids);
     done = run.last;

@@ -64,7 +64,7 @@ inline uint64_t digestOf(const graph::Graph& result) {
   for (const graph::Arc& arc : result.arcs)
     for (const uint32_t value : {uint32_t{arc.a}, uint32_t{arc.b}, arc.borderPx, arc.contrast})
       digest.add(value);
-  for (const graph::RegionRun& run : result.runs.list)
+  for (const Run& run : result.runs.list)
     for (const uint16_t value : {run.y, run.begin, run.end}) digest.add(value);
   return digest.value();
 }

@@ -22,7 +22,7 @@ void readColumn(const BitMask& mask, const BitMask& dark, Point top, DarkPart& p
   part.enclosedColumns += isSolid(mask, dark, top.x, top.y - 1) && isSolid(mask, dark, top.x, end);
 }
 
-void readRun(const BitMask& mask, const BitMask& dark, const Run& run, DarkPart& part) {
+void readRun(const BitMask& mask, const BitMask& dark, const ComponentRun& run, DarkPart& part) {
   const auto addSide = [&](int x, int y) {
     part.solidContacts += isSolid(mask, dark, x, y);
     part.freeContacts += isFree(mask, x, y);
@@ -47,7 +47,7 @@ bool isCast(const DarkPart& part) {
 void keepCastShadows(const BitMask& mask, BitMask& dark, CastShadowScratch& scratch) {
   findComponents(dark, true, Connectivity::Four, scratch.darkParts);
   scratch.dark.assign(scratch.darkParts.list.size(), {});
-  for (const Run& run : scratch.darkParts.runs)
+  for (const ComponentRun& run : scratch.darkParts.runs)
     readRun(mask, dark, run, scratch.dark[run.component]);
   scratch.isChosen.resize(scratch.dark.size());
   for (size_t i = 0; i < scratch.dark.size(); ++i) scratch.isChosen[i] = !isCast(scratch.dark[i]);
@@ -57,7 +57,7 @@ void keepCastShadows(const BitMask& mask, BitMask& dark, CastShadowScratch& scra
   Components& objects = scratch.objects;
   findComponents(mask, true, Connectivity::Eight, objects);
   scratch.darkOf.assign(objects.list.size(), 0);
-  for (const Run& run : objects.runs)
+  for (const ComponentRun& run : objects.runs)
     scratch.darkOf[run.component] +=
         static_cast<uint32_t>(countColumns(dark.row(run.y), run.begin, run.end));
   scratch.isChosen.resize(objects.list.size());

@@ -16,13 +16,13 @@ constexpr int64_t kAlike = 28;        // 1/16 px per frame by which a vector may
 constexpr int32_t kHalfReliable = 6;  // Reliability of a vector that counts half.
 
 /// What the previous frame knew of the pixels that a region came from.
-MotionTrend trendBefore(std::span<const graph::RegionRun> runs, const motion::RegionMotion& now,
+MotionTrend trendBefore(std::span<const Run> runs, const motion::RegionMotion& now,
                         const MotionTrends& memory) {
   const Image<uint16_t>& ids = memory.labels->ids;
   const Point shift{static_cast<int>(divideRounded(now.dx, motion::kMotionUnit)),
                     static_cast<int>(divideRounded(now.dy, motion::kMotionUnit))};
   int64_t weight = 0, sumX = 0, sumY = 0, samples = 0;
-  for (const graph::RegionRun& run : runs) {
+  for (const Run& run : runs) {
     if (run.y % kStep != 0) continue;
     samples += (run.end - run.begin + kStep - 1) / kStep;
     const int y = run.y - shift.y;

@@ -15,7 +15,7 @@
 // how much better the camera's motion explains the region's pixels than another (U1,
 // core/objects/merge/own_motion.hpp), and by the prediction: for the ground where no object is
 // expected in the region, against it where one is seen that has stopped
-// (core/objects/tracking/stopped_things.hpp). What ends up in the ground's group is background. So
+// (core/objects/tracking/standing_tracks.hpp). What ends up in the ground's group is background. So
 // the same sum decides what moves at all.
 //
 // Determinism: integers; every choice has a key (weight, then a hash of the two labels, then the

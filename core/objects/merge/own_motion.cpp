@@ -78,7 +78,7 @@ void forCovered(const Inputs& in, const std::vector<OwnMotion>& own, OwnMotionSc
       const Point shift = own[i].shift;
       const auto runs = graph.runs.of(i);
       auto run = std::lower_bound(runs.begin(), runs.end(), begin + shift.y,
-                                  [](const graph::RegionRun& r, int y) { return r.y < y; });
+                                  [](const Run& r, int y) { return r.y < y; });
       for (; run != runs.end() && run->y < end + shift.y; ++run) {
         const int first = std::max(run->begin - shift.x, 0);
         const int last = std::min(run->end - shift.x, graph.size.width);

@@ -99,7 +99,7 @@ class Comparison {
   }
 
   [[nodiscard]] const std::array<Sums, kBands>& run() {
-    for (const graph::RegionRun& run : graph_.runs.of(region_)) {
+    for (const Run& run : graph_.runs.of(region_)) {
       if (run.y != y_) beginRow(run.y);
       if (isCompared_)
         addRun({std::max<int>(run.begin, columns_.first), std::min<int>(run.end, columns_.last)});

@@ -14,7 +14,7 @@ constexpr int kRounds = 3;
 constexpr int kExpectedBonus = 2;
 
 /// Adds `change` to the claims of the cells inside the box.
-void claim(const Evidence& e, const Box& box, int change, std::vector<uint16_t>& claims) {
+void claim(const GroupGrid& e, const Box& box, int change, std::vector<uint16_t>& claims) {
   const Box inside = intersect(box, boundsOf(e.grid));
   for (int y = inside.y; y < inside.bottom(); ++y) {
     uint16_t* row = claims.data() + e.at(inside.x, y);
@@ -23,7 +23,7 @@ void claim(const Evidence& e, const Box& box, int change, std::vector<uint16_t>&
 }
 
 /// What the prediction of the regions says of a cell.
-int trustOf(const Evidence& e, const FitTask& task, size_t cell) {
+int trustOf(const GroupGrid& e, const FitTask& task, size_t cell) {
   if (e.expected[cell] == 0 || task.track == 0) return 0;
   return e.expected[cell] == task.track ? kExpectedBonus : -kExpectedBonus;
 }
@@ -31,7 +31,7 @@ int trustOf(const Evidence& e, const FitTask& task, size_t cell) {
 /// Sums of what the cells of `window` are worth to a task: at(x, y) covers all above and left.
 class ValueSums {
  public:
-  ValueSums(const Evidence& e, const FitTask& task, const Box& window, FitScratch& s)
+  ValueSums(const GroupGrid& e, const FitTask& task, const Box& window, FitScratch& s)
       : window_(window), stride_(window.width + 1), sums_(s.sums) {
     sums_.resize(static_cast<size_t>(stride_) * static_cast<size_t>(window.height + 1));
     std::fill_n(sums_.begin(), stride_, 0);
@@ -61,7 +61,7 @@ class ValueSums {
   }
 
  private:
-  static int value(const Evidence& e, const FitTask& task, size_t cell,
+  static int value(const GroupGrid& e, const FitTask& task, size_t cell,
                    const std::vector<uint16_t>& claims) {
     if (e.group[cell] == 0) return -kBackgroundLoss;
     return claims[cell] > 0 ? 0
@@ -82,7 +82,7 @@ Box windowOf(const FitTask& task) {
           box.height + 2 * task.reachY};
 }
 
-Box bestPlace(const Evidence& e, const FitTask& task, FitScratch& s) {
+Box bestPlace(const GroupGrid& e, const FitTask& task, FitScratch& s) {
   const Box& box = task.expected;
   const ValueSums sums(e, task, windowOf(task), s);
   const int margin = box.width / 4;
@@ -109,7 +109,7 @@ Box bestPlace(const Evidence& e, const FitTask& task, FitScratch& s) {
   return best;
 }
 
-void takeTurn(const Evidence& e, std::span<FitTask> tier, size_t index, FitScratch& s) {
+void takeTurn(const GroupGrid& e, std::span<FitTask> tier, size_t index, FitScratch& s) {
   FitTask& task = tier[index];
   const Box before = task.fitted;
   claim(e, before, -1, s.claims);
@@ -127,7 +127,7 @@ void takeTurn(const Evidence& e, std::span<FitTask> tier, size_t index, FitScrat
 
 }  // namespace
 
-void fitBoxes(const Evidence& e, std::span<FitTask> tasks, FitScratch& s) {
+void fitBoxes(const GroupGrid& e, std::span<FitTask> tasks, FitScratch& s) {
   s.claims.assign(e.group.size(), 0);
   for (size_t first = 0, last = 0; first < tasks.size(); first = last) {
     while (last < tasks.size() && tasks[last].tier == tasks[first].tier) ++last;
@@ -143,7 +143,7 @@ void fitBoxes(const Evidence& e, std::span<FitTask> tasks, FitScratch& s) {
   }
 }
 
-void assignCells(const Evidence& e, std::span<const FitTask> tasks, std::vector<uint16_t>& owner) {
+void assignCells(const GroupGrid& e, std::span<const FitTask> tasks, std::vector<uint16_t>& owner) {
   owner.assign(e.group.size(), 0);
   for (size_t i = 0; i < tasks.size(); ++i) {
     const FitTask& task = tasks[i];

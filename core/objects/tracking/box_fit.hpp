@@ -10,7 +10,7 @@
 // then higher, then further left.
 #pragma once
 
-#include "core/objects/tracking/evidence.hpp"
+#include "core/objects/tracking/group_grid.hpp"
 
 #include <array>
 #include <cstdint>
@@ -26,7 +26,7 @@ struct FitTask {
   int tier = 0;                    ///< Boxes of a lower tier choose first and don't yield.
   std::array<int8_t, 32> bonus{};  ///< By colour bin: −kMaxBonus … kMaxBonus.
   bool isOfOwnSize = false;        ///< Its size is known from its own history, not from the scene.
-  uint16_t track = 0;              ///< As in Evidence::expected; 0 = none.
+  uint16_t track = 0;              ///< As in GroupGrid::expected; 0 = none.
   Box fitted;                      ///< Result.
 };
 
@@ -39,11 +39,11 @@ struct FitScratch {
 };
 
 /// tasks must be sorted by tier.
-void fitBoxes(const Evidence& evidence, std::span<FitTask> tasks, FitScratch& scratch);
+void fitBoxes(const GroupGrid& evidence, std::span<FitTask> tasks, FitScratch& scratch);
 
 /// For each cell 1 + the task that owns it, 0 = none. Where boxes overlap the lower tier wins, then
 /// the better colour, then the earlier task.
-void assignCells(const Evidence& evidence, std::span<const FitTask> tasks,
+void assignCells(const GroupGrid& evidence, std::span<const FitTask> tasks,
                  std::vector<uint16_t>& owner);
 
 }  // namespace rg::objects

@@ -43,21 +43,19 @@ uint32_t labelParts(std::span<uint32_t> columns, uint32_t own, uint32_t count,
 }
 
 /// The parts of the foreground that nobody owns, each of one group.
-void listFree(const Evidence& e, std::span<const uint16_t> owner,
-              std::vector<graph::RegionRun>& runs) {
+void listFree(const GroupGrid& e, std::span<const uint16_t> owner, std::vector<Run>& runs) {
   if (owner.empty()) {
     runs = e.runs;
     return;
   }
   runs.clear();
-  e.forParts(owner, [&](const graph::RegionRun& part, uint16_t track) {
+  e.forParts(owner, [&](const Run& part, uint16_t track) {
     if (track == 0) runs.push_back(part);
   });
 }
 
 /// Joins the runs that touch, corners included, unless their groups are apart.
-void joinRuns(const Evidence& e, const std::vector<graph::RegionRun>& runs,
-              std::vector<uint32_t>& parent) {
+void joinRuns(const GroupGrid& e, const std::vector<Run>& runs, std::vector<uint32_t>& parent) {
   parent.resize(runs.size());
   const auto tryJoin = [&](uint32_t a, uint32_t b) {
     const auto groupOf = [&](uint32_t i) { return e.group[e.at(runs[i].begin, runs[i].y)]; };
@@ -65,7 +63,7 @@ void joinRuns(const Evidence& e, const std::vector<graph::RegionRun>& runs,
   };
   uint32_t above = 0;  // None before it reaches down to the present run.
   for (uint32_t i = 0; i < runs.size(); ++i) {
-    const graph::RegionRun& run = runs[i];
+    const Run& run = runs[i];
     parent[i] = i;
     if (i > 0 && runs[i - 1].y == run.y && runs[i - 1].end == run.begin) tryJoin(i - 1, i);
     while (runs[above].y + 1 < run.y || (runs[above].y < run.y && runs[above].end < run.begin))
@@ -76,22 +74,22 @@ void joinRuns(const Evidence& e, const std::vector<graph::RegionRun>& runs,
 
 }  // namespace
 
-void findPieces(const Evidence& e, std::span<const uint16_t> owner, PieceScratch& s,
+void findPieces(const GroupGrid& e, std::span<const uint16_t> owner, PieceScratch& s,
                 std::vector<Piece>& pieces) {
   if (s.grid != e.grid) {
     s.grid = e.grid;
     s.label.assign(e.group.size(), 0);
     s.runs.clear();
   }
-  const auto fill = [&](const graph::RegionRun& run, uint32_t label) {
+  const auto fill = [&](const Run& run, uint32_t label) {
     std::fill_n(s.label.data() + e.at(run.begin, run.y), run.end - run.begin, label);
   };
-  for (const graph::RegionRun& run : s.runs) fill(run, 0);
+  for (const Run& run : s.runs) fill(run, 0);
   listFree(e, owner, s.runs);
   joinRuns(e, s.runs, s.parent);
   pieces.assign(numberSets(s.parent), {});
   for (size_t i = 0; i < s.runs.size(); ++i) {
-    const graph::RegionRun& run = s.runs[i];
+    const Run& run = s.runs[i];
     const int width = run.end - run.begin;
     Piece& piece = pieces[s.parent[i]];
     fill(run, s.parent[i] + 1);
@@ -104,18 +102,18 @@ void findPieces(const Evidence& e, std::span<const uint16_t> owner, PieceScratch
   }
 }
 
-void cutPieces(const Evidence& e, PieceScratch& s, std::vector<Piece>& pieces) {
+void cutPieces(const GroupGrid& e, PieceScratch& s, std::vector<Piece>& pieces) {
   // Columns of all pieces one after another: their sum is at most the number of cells.
   s.firstColumn.assign(1, 0);
   for (const Piece& piece : pieces)
     s.firstColumn.push_back(s.firstColumn.back() + static_cast<uint32_t>(piece.box.width));
   s.columns.assign(s.firstColumn.back(), 0);
-  const auto columnsOf = [&](const graph::RegionRun& run) {
+  const auto columnsOf = [&](const Run& run) {
     const uint32_t piece = s.label[e.at(run.begin, run.y)] - 1;
     const auto first = s.columns.begin() + s.firstColumn[piece] + run.begin - pieces[piece].box.x;
     return std::span(first, first + (run.end - run.begin));
   };
-  for (const graph::RegionRun& run : s.runs)
+  for (const Run& run : s.runs)
     for (uint32_t& height : columnsOf(run)) ++height;
   const auto whole = static_cast<uint32_t>(pieces.size());
   uint32_t count = whole;
@@ -125,7 +123,7 @@ void cutPieces(const Evidence& e, PieceScratch& s, std::vector<Piece>& pieces) {
   }
   if (count == whole) return;
   s.cut.assign(count, {});
-  for (const graph::RegionRun& run : s.runs) {
+  for (const Run& run : s.runs) {
     const std::span<const uint32_t> labels = columnsOf(run);
     std::copy(labels.begin(), labels.end(),
               s.label.begin() + static_cast<std::ptrdiff_t>(e.at(run.begin, run.y)));

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Connected parts of the foreground that the tracker sees (core/objects/tracking/evidence.hpp).
+// Connected parts of the foreground that the tracker sees (core/objects/tracking/group_grid.hpp).
 //
 // Cost: follows the runs of cells, not the cells. Determinism: pieces count in raster order.
 #pragma once
 
-#include "core/objects/tracking/evidence.hpp"
+#include "core/objects/tracking/group_grid.hpp"
 
 #include <cstdint>
 #include <span>
@@ -16,13 +16,13 @@ namespace rg::objects {
 struct Piece {
   uint32_t cells = 0;
   Box box;             ///< In cells.
-  uint16_t group = 0;  ///< The largest that it has cells of, as in Evidence.
+  uint16_t group = 0;  ///< The largest that it has cells of, as in GroupGrid.
 };
 
 struct PieceScratch {
   Size grid;                                            ///< That `label` is of.
   std::vector<uint32_t> label;                          ///< Of each cell: 1 + piece, 0 = none.
-  std::vector<graph::RegionRun> runs;                   ///< That have labels.
+  std::vector<Run> runs;                                ///< That have labels.
   std::vector<uint32_t> parent;                         ///< Of each run.
   std::vector<uint32_t> firstColumn, columns, highest;  ///< Of cutPieces().
   std::vector<Piece> cut;
@@ -30,12 +30,12 @@ struct PieceScratch {
 
 /// The parts of the foreground whose owner is 0; groups that are apart are not of one part. owner:
 /// for each cell 1 + track or 0; empty: nobody owns anything.
-void findPieces(const Evidence& evidence, std::span<const uint16_t> owner, PieceScratch& scratch,
+void findPieces(const GroupGrid& evidence, std::span<const uint16_t> owner, PieceScratch& scratch,
                 std::vector<Piece>& pieces);
 
 /// Cuts pieces apart, from top to bottom, where two things seem to touch: where a column holds much
 /// less than some on either side. Without a joint a piece keeps its number; parts to the right get
 /// numbers after all pieces.
-void cutPieces(const Evidence& evidence, PieceScratch& scratch, std::vector<Piece>& pieces);
+void cutPieces(const GroupGrid& evidence, PieceScratch& scratch, std::vector<Piece>& pieces);
 
 }  // namespace rg::objects

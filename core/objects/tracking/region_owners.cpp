@@ -8,23 +8,23 @@ namespace rg::objects {
 namespace {
 
 /// Afterwards those of track t are parts[firstPart[t]] … parts[firstPart[t + 1] − 1].
-void listParts(const Evidence& grid, std::span<const uint16_t> owner, size_t tracks,
+void listParts(const GroupGrid& grid, std::span<const uint16_t> owner, size_t tracks,
                RegionOwnerScratch& s) {
   s.firstPart.assign(tracks + 2, 0);
-  grid.forParts(owner, [&](const graph::RegionRun&, uint16_t track) {
+  grid.forParts(owner, [&](const Run&, uint16_t track) {
     if (track != 0) ++s.firstPart[track + 1u];
   });
   std::partial_sum(s.firstPart.begin(), s.firstPart.end(), s.firstPart.begin());
   s.parts.resize(s.firstPart.back());
-  grid.forParts(owner, [&](const graph::RegionRun& part, uint16_t track) {
+  grid.forParts(owner, [&](const Run& part, uint16_t track) {
     if (track != 0) s.parts[s.firstPart[track]++] = part;
   });
 }
 
 /// Calls visit(label, times) for what the middles of some cells show when they are shifted.
 template <class Visit>
-void forLabels(const segmentation::Labels& labels, const Evidence& grid,
-               const graph::RegionRun& cells, Point shift, const Visit& visit) {
+void forLabels(const segmentation::Labels& labels, const GroupGrid& grid, const Run& cells,
+               Point shift, const Visit& visit) {
   const int y = grid.middleOf(0, cells.y).y + shift.y;
   if (y < 0 || y >= labels.ids.height()) return;
   const uint16_t* row = labels.ids.row(y);
@@ -48,7 +48,7 @@ void forLabels(const segmentation::Labels& labels, const Evidence& grid,
 
 }  // namespace
 
-void findRegionOwners(const segmentation::Labels& labels, const Evidence& grid,
+void findRegionOwners(const segmentation::Labels& labels, const GroupGrid& grid,
                       std::span<const uint16_t> owner, std::span<const Point> shifts,
                       RegionOwnerScratch& s, std::vector<uint32_t>& ownerOf) {
   listParts(grid, owner, shifts.size(), s);

@@ -6,7 +6,7 @@
 #pragma once
 
 #include "core/base/geometry.hpp"
-#include "core/objects/tracking/evidence.hpp"
+#include "core/objects/tracking/group_grid.hpp"
 
 #include <cstdint>
 #include <span>
@@ -17,7 +17,7 @@ namespace rg::objects {
 /// Working memory that keeps its capacity from frame to frame.
 struct RegionOwnerScratch {
   std::vector<uint32_t> firstPart;
-  std::vector<graph::RegionRun> parts;     ///< Of each track's cells, one track after another.
+  std::vector<Run> parts;                  ///< Of each track's cells, one track after another.
   std::vector<uint32_t> votes, mostVotes;  ///< Of each region.
   std::vector<uint32_t> seen;              ///< Regions with votes.
 };
@@ -25,7 +25,7 @@ struct RegionOwnerScratch {
 /// owner: of each cell of `grid` 1 + track, 0 = none; shifts: of each track, pixels, how far its
 /// cells are moved before they are compared with `labels`; cells that leave the frame do not count.
 /// Result: of each region 1 + track, 0 = none; `ownerOf` comes with an entry per region.
-void findRegionOwners(const segmentation::Labels& labels, const Evidence& grid,
+void findRegionOwners(const segmentation::Labels& labels, const GroupGrid& grid,
                       std::span<const uint16_t> owner, std::span<const Point> shifts,
                       RegionOwnerScratch& scratch, std::vector<uint32_t>& ownerOf);
 

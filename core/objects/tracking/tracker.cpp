@@ -142,7 +142,7 @@ void Tracker::predict(int64_t stepNs, const TrackerParams& params) {
   settle(stepNs, params);
 }
 
-void Tracker::update(const Evidence& evidence, std::span<const Group> groups, int64_t stepNs,
+void Tracker::update(const GroupGrid& evidence, std::span<const Group> groups, int64_t stepNs,
                      const TrackerParams& params) {
   events_.clear();
   if (frame_ != evidence.frame) {
@@ -180,7 +180,7 @@ void Tracker::update(const Evidence& evidence, std::span<const Group> groups, in
   settle(stepNs, params);
 }
 
-void Tracker::lookForTracks(const Evidence& e, int64_t stepNs) {
+void Tracker::lookForTracks(const GroupGrid& e, int64_t stepNs) {
   tasks_.clear();
   taskTrack_.clear();
   std::vector<size_t>& order = taskTrack_;
@@ -222,7 +222,7 @@ void Tracker::lookForTracks(const Evidence& e, int64_t stepNs) {
   }
   fitBoxes(e, tasks_, fitScratch_);
   assignCells(e, tasks_, owner_);
-  e.forParts(owner_, [&](const graph::RegionRun& part, uint16_t task) {
+  e.forParts(owner_, [&](const Run& part, uint16_t task) {
     if (task == 0) return;
     std::fill_n(owner_.data() + e.at(part.begin, part.y), part.end - part.begin,
                 static_cast<uint16_t>(taskTrack_[task - 1u] + 1));
@@ -232,7 +232,7 @@ void Tracker::lookForTracks(const Evidence& e, int64_t stepNs) {
 }
 
 /// What each track owns of its fitted box.
-void Tracker::countCells(const Evidence& e) {
+void Tracker::countCells(const GroupGrid& e) {
   for (size_t i = 0; i < tracks_.size(); ++i) {
     Sighting& s = sightings_[i];
     if (s.task < 0) continue;
@@ -260,7 +260,7 @@ bool Tracker::hasTheRest(size_t index) const {
   return blobOf_[index] != 0;
 }
 
-void Tracker::sight(const Evidence& e) {
+void Tracker::sight(const GroupGrid& e) {
   for (size_t i = 0; i < tracks_.size(); ++i) {
     Sighting& s = sightings_[i];
     if (s.task < 0) continue;

@@ -13,7 +13,7 @@
 #include "core/objects/tracking/assignment.hpp"
 #include "core/objects/tracking/box_fit.hpp"
 #include "core/objects/tracking/clutter.hpp"
-#include "core/objects/tracking/evidence.hpp"
+#include "core/objects/tracking/group_grid.hpp"
 #include "core/objects/tracking/looks/appearance.hpp"
 #include "core/objects/tracking/looks/portrait.hpp"
 #include "core/objects/tracking/pieces.hpp"
@@ -194,7 +194,7 @@ class Tracker {
   void inherit(TrackerLegacy&& legacy) noexcept;
   /// A frame that shows nothing: tracks move on as they are expected to.
   void predict(int64_t stepNs, const TrackerParams& params);
-  void update(const Evidence& evidence, std::span<const Group> groups, int64_t stepNs,
+  void update(const GroupGrid& evidence, std::span<const Group> groups, int64_t stepNs,
               const TrackerParams& params);
 
   [[nodiscard]] const std::vector<Track>& tracks() const { return tracks_; }
@@ -214,50 +214,50 @@ class Tracker {
   [[nodiscard]] static Point stepOf(const Track& track, int64_t stepNs);
   static void moveWithCamera(Track& track, Point camera);
   void advance(Track& track, int64_t stepNs) const;
-  void lookForTracks(const Evidence& evidence, int64_t stepNs);
-  void giveGroups(const Evidence& evidence, std::span<const Group> groups);
-  void findBlobs(const Evidence& evidence);
-  void findOwnBlobs(const Evidence& evidence);
-  [[nodiscard]] bool isComplete(size_t index, const Evidence& evidence) const;
+  void lookForTracks(const GroupGrid& evidence, int64_t stepNs);
+  void giveGroups(const GroupGrid& evidence, std::span<const Group> groups);
+  void findBlobs(const GroupGrid& evidence);
+  void findOwnBlobs(const GroupGrid& evidence);
+  [[nodiscard]] bool isComplete(size_t index, const GroupGrid& evidence) const;
   [[nodiscard]] bool isAbout(const Box& box, const Track& track) const;
-  [[nodiscard]] bool isClear(size_t index, const Evidence& evidence) const;
-  void listPortraits(const Evidence& evidence);
-  void placeByPortraits(const Evidence& evidence, int64_t stepNs);
+  [[nodiscard]] bool isClear(size_t index, const GroupGrid& evidence) const;
+  void listPortraits(const GroupGrid& evidence);
+  void placeByPortraits(const GroupGrid& evidence, int64_t stepNs);
   [[nodiscard]] PortraitSearch searchOf(size_t index, int64_t stepNs) const;
   [[nodiscard]] PortraitMatch findTrack(const PortraitScene& scene, const PortraitTask& task);
-  [[nodiscard]] bool isDisturbed(size_t index, const Evidence& evidence) const;
+  [[nodiscard]] bool isDisturbed(size_t index, const GroupGrid& evidence) const;
   void hide(const PortraitScene& scene, size_t index, int64_t stepNs);
   void giveMatch(const PortraitScene& scene, PortraitTask& task, int64_t stepNs);
-  void learnPortrait(size_t index, const Evidence& evidence);
-  void giveBlobs(const Evidence& evidence);
+  void learnPortrait(size_t index, const GroupGrid& evidence);
+  void giveBlobs(const GroupGrid& evidence);
   template <class Visit>
-  void forStrayCells(const Evidence& evidence, const Visit& visit) const;
-  void partTracks(const Evidence& evidence);
-  void limitTracks(const Evidence& evidence);
-  void reclaimExpected(const Evidence& evidence);
-  void spreadOwners(const Evidence& evidence);
-  void countCells(const Evidence& evidence);
-  void dropStrangers(const Evidence& evidence);
+  void forStrayCells(const GroupGrid& evidence, const Visit& visit) const;
+  void partTracks(const GroupGrid& evidence);
+  void limitTracks(const GroupGrid& evidence);
+  void reclaimExpected(const GroupGrid& evidence);
+  void spreadOwners(const GroupGrid& evidence);
+  void countCells(const GroupGrid& evidence);
+  void dropStrangers(const GroupGrid& evidence);
   [[nodiscard]] bool hasTheRest(size_t index) const;
   [[nodiscard]] static bool goesBehind(Track& track, const Box& box);
-  void sight(const Evidence& evidence);
+  void sight(const GroupGrid& evidence);
   [[nodiscard]] bool isSizeKnown(const Track& track) const;
   void watchEntry(Track& track, const Sighting& sighting) const;
   [[nodiscard]] bool isRigid(const Track& track) const;
-  void findNewcomers(const Evidence& evidence, const TrackerParams& params);
-  void describeNewcomers(const Evidence& evidence);
-  void giveFragments(const Evidence& evidence);
-  void giveNewcomers(const Evidence& evidence);
+  void findNewcomers(const GroupGrid& evidence, const TrackerParams& params);
+  void describeNewcomers(const GroupGrid& evidence);
+  void giveFragments(const GroupGrid& evidence);
+  void giveNewcomers(const GroupGrid& evidence);
   [[nodiscard]] bool isPartOf(const Newcomer& newcomer, const Track& track) const;
-  [[nodiscard]] bool comesApart(const Evidence& evidence, const Newcomer& newcomer) const;
-  void dropSmall(const Evidence& evidence, const TrackerParams& params);
-  void rejoin(const Evidence& evidence);
-  [[nodiscard]] int64_t rejoinCost(const Evidence& evidence, const Track& track,
+  [[nodiscard]] bool comesApart(const GroupGrid& evidence, const Newcomer& newcomer) const;
+  void dropSmall(const GroupGrid& evidence, const TrackerParams& params);
+  void rejoin(const GroupGrid& evidence);
+  [[nodiscard]] int64_t rejoinCost(const GroupGrid& evidence, const Track& track,
                                    const Newcomer& newcomer);
-  [[nodiscard]] std::optional<Point> recognise(const Evidence& evidence, const Track& track,
+  [[nodiscard]] std::optional<Point> recognise(const GroupGrid& evidence, const Track& track,
                                                const Newcomer& newcomer);
   [[nodiscard]] int likeness(const Track& track, const Newcomer& newcomer) const;
-  void comeBack(const Evidence& evidence, Track& track, const Newcomer& newcomer);
+  void comeBack(const GroupGrid& evidence, Track& track, const Newcomer& newcomer);
   void meet();
   [[nodiscard]] Track* find(uint64_t id);
   void learnLook(size_t index);
@@ -268,16 +268,16 @@ class Tracker {
   [[nodiscard]] bool hidesAnother(const Track& track) const;
   [[nodiscard]] Place placeOfWhole(Track& track, const Sighting& sighting) const;
   void miss(Track& track, const Sighting& sighting, int64_t stepNs) const;
-  void learnSize(size_t index, int64_t stepNs, const Evidence& evidence);
+  void learnSize(size_t index, int64_t stepNs, const GroupGrid& evidence);
   [[nodiscard]] uint64_t parentOf(const Newcomer& newcomer) const;
   void begin(const Newcomer& newcomer);
   [[nodiscard]] bool isCovered(const Track& track) const;
   void fitSizeToScene(Track& track) const;
-  void learnScale(const Evidence& evidence);
+  void learnScale(const GroupGrid& evidence);
   [[nodiscard]] bool outgrows(const Track& track, const Box& box) const;
   [[nodiscard]] static bool movesOtherwise(const Track& a, const Track& b);
-  [[nodiscard]] bool areOneBody(const Evidence& evidence, size_t a, size_t b) const;
-  void joinDoubles(const Evidence& evidence, int64_t stepNs);
+  [[nodiscard]] bool areOneBody(const GroupGrid& evidence, size_t a, size_t b) const;
+  void joinDoubles(const GroupGrid& evidence, int64_t stepNs);
   void findCompany(int64_t stepNs);
   void tellCompany();
   void tellNew(const Track& track);

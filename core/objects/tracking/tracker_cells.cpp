@@ -27,14 +27,14 @@ bool standBeside(const Box& mine, const Box& other) {
 }  // namespace
 
 /// Connected parts of all the foreground.
-void Tracker::findBlobs(const Evidence& e) {
+void Tracker::findBlobs(const GroupGrid& e) {
   findPieces(e, {}, blobScratch_, blobs_);
   if (!scale_.isUniform()) cutPieces(e, blobScratch_, blobs_);
   findOwnBlobs(e);
 }
 
 /// For each track the blob that it has most cells in.
-void Tracker::findOwnBlobs(const Evidence& e) {
+void Tracker::findOwnBlobs(const GroupGrid& e) {
   blobOf_.assign(tracks_.size(), 0);
   soleTrack_.assign(blobs_.size() + 1, 0);
   blobCells_.assign(blobs_.size() + 1, 0);
@@ -68,8 +68,8 @@ void Tracker::findOwnBlobs(const Evidence& e) {
 /// Calls visit(cell, its blob, the owner's blob) for the cells whose owner has most of its cells in
 /// another blob, in raster order. It may take the cell from its owner.
 template <class Visit>
-void Tracker::forStrayCells(const Evidence& e, const Visit& visit) const {
-  e.forParts(owner_, [&](const graph::RegionRun& part, uint16_t owner) {
+void Tracker::forStrayCells(const GroupGrid& e, const Visit& visit) const {
+  e.forParts(owner_, [&](const Run& part, uint16_t owner) {
     if (owner == 0) return;
     const uint32_t main = blobOf_[owner - 1u];
     const size_t end = e.at(part.end, part.y);
@@ -83,7 +83,7 @@ void Tracker::forStrayCells(const Evidence& e, const Visit& visit) const {
 /// As long as the scene doesn't say how large things are, one blob is one object: whoever is in it
 /// shares all of it, each the cells that are nearest, and has nothing of another blob that stands
 /// beside it and is about as high.
-void Tracker::giveBlobs(const Evidence& e) {
+void Tracker::giveBlobs(const GroupGrid& e) {
   if (scale_.isUniform()) return;
   forStrayCells(e, [&](size_t cell, uint32_t blob, uint32_t main) {
     const uint16_t owner = owner_[cell];
@@ -105,7 +105,7 @@ void Tracker::giveBlobs(const Evidence& e) {
 
 /// Two things above each other were taken for one when they came in: once one has moved against the
 /// other by a quarter of a width, it is given up. Parts of a body don't do that.
-void Tracker::partTracks(const Evidence& e) {
+void Tracker::partTracks(const GroupGrid& e) {
   findMajorities(tracks_.size(), majorities_, [&](auto&& count) {
     forStrayCells(
         e, [&](size_t cell, uint32_t blob, uint32_t) { count(owner_[cell] - 1u, blob, 1u); });
@@ -137,7 +137,7 @@ void Tracker::partTracks(const Evidence& e) {
 }
 
 /// A track of known size ends a little way beyond its box.
-void Tracker::limitTracks(const Evidence& e) {
+void Tracker::limitTracks(const GroupGrid& e) {
   limits_.assign(tracks_.size(), boundsOf(e.grid));
   for (size_t t = 0; t < tasks_.size(); ++t) {
     const Box& box = tasks_[t].fitted;
@@ -147,8 +147,8 @@ void Tracker::limitTracks(const Evidence& e) {
 }
 
 /// Cells go to whom their region is predicted to be, unless a portrait told whose they are.
-void Tracker::reclaimExpected(const Evidence& e) {
-  e.forParts(e.expected, [&](const graph::RegionRun& part, uint16_t expected) {
+void Tracker::reclaimExpected(const GroupGrid& e) {
+  e.forParts(e.expected, [&](const Run& part, uint16_t expected) {
     if (expected == 0) return;
     const Box& limits = limits_[expected - 1u];
     const Box cells = intersect({part.begin, part.y, part.end - part.begin, 1}, limits);
@@ -161,11 +161,11 @@ void Tracker::reclaimExpected(const Evidence& e) {
 }
 
 /// Two passes over the grid, each handing owners on with a distance of 3 straight and 4 diagonally.
-void Tracker::spreadOwners(const Evidence& e) {
+void Tracker::spreadOwners(const GroupGrid& e) {
   constexpr uint16_t kFar = UINT16_MAX;
   distance_.resize(owner_.size());
   bool isComplete = true;
-  e.forParts(owner_, [&](const graph::RegionRun& part, uint16_t owner) {
+  e.forParts(owner_, [&](const Run& part, uint16_t owner) {
     std::fill_n(distance_.data() + e.at(part.begin, part.y), part.end - part.begin,
                 owner != 0 ? uint16_t{0} : kFar);
     isComplete = isComplete && owner != 0;
@@ -192,9 +192,9 @@ void Tracker::spreadOwners(const Evidence& e) {
 
 /// What sticks out of a fitted box (an arm, a long stride) goes with its group, when most of the
 /// group belongs to one track. The groups of which a track has most are what is seen of it.
-void Tracker::giveGroups(const Evidence& e, std::span<const Group> groups) {
+void Tracker::giveGroups(const GroupGrid& e, std::span<const Group> groups) {
   const auto vote = [&](auto&& count) {
-    e.forParts(owner_, [&](const graph::RegionRun& part, uint16_t owner) {
+    e.forParts(owner_, [&](const Run& part, uint16_t owner) {
       if (owner == 0) return;
       count(e.group[e.at(part.begin, part.y)] - 1u, owner, uint32_t{part.end} - part.begin);
     });
@@ -222,7 +222,7 @@ void Tracker::giveGroups(const Evidence& e, std::span<const Group> groups) {
     return votes > 0 && (scale_.isUniform() ? 5 * votes >= 3 * cells : 20 * votes >= 19 * cells);
   };
   if (!scale_.isUniform())
-    e.forParts(owner_, [&](const graph::RegionRun& part, uint16_t owner) {
+    e.forParts(owner_, [&](const Run& part, uint16_t owner) {
       if (owner == 0 || isOwned(e.group[e.at(part.begin, part.y)] - 1u)) return;
       Sighting& s = sightings_[owner - 1u];
       const Box box = intersect(

@@ -33,7 +33,7 @@ void exchangeIdentities(Track& a, Track& b) {
 
 /// Who stands where somebody was expected but looks like nothing that was seen of them is somebody
 /// else: one who comes in where the other left.
-void Tracker::dropStrangers(const Evidence& e) {
+void Tracker::dropStrangers(const GroupGrid& e) {
   bool hasStrangers = false;
   for (size_t i = 0; i < tracks_.size(); ++i) {
     Sighting& s = sightings_[i];

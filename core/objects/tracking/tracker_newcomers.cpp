@@ -39,7 +39,7 @@ bool belongTogether(const Box& a, const Box& b, const SceneScale& scale) {
 
 }  // namespace
 
-void Tracker::findNewcomers(const Evidence& e, const TrackerParams& params) {
+void Tracker::findNewcomers(const GroupGrid& e, const TrackerParams& params) {
   findPieces(e, owner_, pieceScratch_, pieces_);
   if (!scale_.isUniform()) cutPieces(e, pieceScratch_, pieces_);
   newcomers_.clear();
@@ -82,7 +82,7 @@ void Tracker::findNewcomers(const Evidence& e, const TrackerParams& params) {
 
 /// As long as the scene doesn't say how large things are, a small piece right above or below an
 /// object is a part of it: a foot, or a head before a background like it.
-void Tracker::giveFragments(const Evidence& e) {
+void Tracker::giveFragments(const GroupGrid& e) {
   if (scale_.isUniform()) return;
   trackOfNewcomer_.assign(newcomers_.size(), -1);
   for (size_t n = 0; n < newcomers_.size(); ++n) {
@@ -104,7 +104,7 @@ void Tracker::giveFragments(const Evidence& e) {
 }
 
 /// Cells of the newcomers that have found a track go to it.
-void Tracker::giveNewcomers(const Evidence& e) {
+void Tracker::giveNewcomers(const GroupGrid& e) {
   e.forForeground([&](size_t cell, int, int) {
     const uint32_t piece = pieceScratch_.label[cell];
     if (piece == 0 || newcomerOf_[piece - 1] < 0) return;
@@ -114,7 +114,7 @@ void Tracker::giveNewcomers(const Evidence& e) {
 }
 
 /// Looks of the newcomers, and the tracks whose blob they come out of.
-void Tracker::describeNewcomers(const Evidence& e) {
+void Tracker::describeNewcomers(const GroupGrid& e) {
   touching_.assign(newcomers_.size() * tracks_.size(), 0);
   e.forForeground([&](size_t cell, int x, int y) {
     const uint32_t piece = pieceScratch_.label[cell];
@@ -161,7 +161,7 @@ bool Tracker::isPartOf(const Newcomer& newcomer, const Track& track) const {
 }
 
 /// Whether a newcomer moves otherwise than the track that it comes out of.
-bool Tracker::comesApart(const Evidence& e, const Newcomer& newcomer) const {
+bool Tracker::comesApart(const GroupGrid& e, const Newcomer& newcomer) const {
   for (size_t t = 0; t < sightings_.size(); ++t)
     if (tracks_[t].id == newcomer.parent)
       return blobOf_[t] != 0 && areApart(e, blobs_[blobOf_[t] - 1].group, newcomer.group);
@@ -169,7 +169,7 @@ bool Tracker::comesApart(const Evidence& e, const Newcomer& newcomer) const {
 }
 
 /// Drops what is too small to be an object here; what sticks out of a track has to be a whole one.
-void Tracker::dropSmall(const Evidence& e, const TrackerParams& params) {
+void Tracker::dropSmall(const GroupGrid& e, const TrackerParams& params) {
   const int64_t cellPx = int64_t{e.stepPx} * e.stepPx;
   const auto isSmall = [&](const Newcomer& n) {
     const int64_t areaPx = n.cells * cellPx;
@@ -202,7 +202,7 @@ void Tracker::dropSmall(const Evidence& e, const TrackerParams& params) {
 }
 
 /// Gives newcomers to the tracks that are missing and look like them; the others begin tracks.
-void Tracker::rejoin(const Evidence& e) {
+void Tracker::rejoin(const GroupGrid& e) {
   std::vector<size_t>& missing = taskTrack_;
   missing.clear();
   for (size_t i = 0; i < tracks_.size(); ++i)
@@ -233,7 +233,7 @@ void Tracker::rejoin(const Evidence& e) {
 }
 
 /// 0 … 2000, or kForbidden: how unlikely it is that the newcomer is the track that is missing.
-int64_t Tracker::rejoinCost(const Evidence& e, const Track& track, const Newcomer& newcomer) {
+int64_t Tracker::rejoinCost(const GroupGrid& e, const Track& track, const Newcomer& newcomer) {
   const int64_t x = (2 * int64_t{newcomer.box.x} + newcomer.box.width) * kUnit / 2;
   const int64_t foot = int64_t{newcomer.box.bottom()} * kUnit;
   const int64_t dx = x - track.x, dy = foot - track.foot;
@@ -268,7 +268,7 @@ int Tracker::likeness(const Track& track, const Newcomer& newcomer) const {
   return most;
 }
 
-void Tracker::comeBack(const Evidence& e, Track& track, const Newcomer& newcomer) {
+void Tracker::comeBack(const GroupGrid& e, Track& track, const Newcomer& newcomer) {
   // What comes out from behind something shows a part first.
   const bool isPart =
       track.centreSamples > 0 && 5 * newcomer.box.width * kUnit < 4 * track.size.width;

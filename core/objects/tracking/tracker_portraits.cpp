@@ -53,7 +53,7 @@ bool Tracker::isAbout(const Box& box, const Track& track) const {
 }
 
 /// Whether the blob that a track has for itself is as large as it should be.
-bool Tracker::isClear(size_t index, const Evidence& e) const {
+bool Tracker::isClear(size_t index, const GroupGrid& e) const {
   const uint32_t blob = blobOf_[index];
   if (blob == 0 || soleTrack_[blob] != index + 1) return false;
   const Track& track = tracks_[index];
@@ -67,7 +67,7 @@ bool Tracker::isClear(size_t index, const Evidence& e) const {
 
 /// The tracks that have a portrait and aren't clear give up their cells; those of clear ones are
 /// taken.
-void Tracker::listPortraits(const Evidence& e) {
+void Tracker::listPortraits(const GroupGrid& e) {
   portraitTasks_.clear();
   if (!e.picture) return;
   isSearched_.assign(tracks_.size() + 1, 0);
@@ -91,13 +91,13 @@ void Tracker::listPortraits(const Evidence& e) {
 }
 
 /// Whether nothing is missing of a track: its blob is all that it usually is.
-bool Tracker::isComplete(size_t index, const Evidence& e) const {
+bool Tracker::isComplete(size_t index, const GroupGrid& e) const {
   return isFaithful(tracks_[index]) && isClear(index, e);
 }
 
 /// Who is seen best stands in front and takes its place first; the others are looked for in what it
 /// leaves.
-void Tracker::placeByPortraits(const Evidence& e, int64_t stepNs) {
+void Tracker::placeByPortraits(const GroupGrid& e, int64_t stepNs) {
   listPortraits(e);
   std::vector<PortraitTask>& tasks = portraitTasks_;
   if (tasks.empty()) return;
@@ -147,7 +147,7 @@ PortraitMatch Tracker::findTrack(const PortraitScene& scene, const PortraitTask&
 }
 
 /// Whether one that was given its match before has taken cells where this one was looked for.
-bool Tracker::isDisturbed(size_t index, const Evidence& e) const {
+bool Tracker::isDisturbed(size_t index, const GroupGrid& e) const {
   const PortraitTask& task = portraitTasks_[index];
   const Box searched = searchedBox(tracks_[task.track].portrait, e, task.search);
   for (size_t i = 0; i < index; ++i) {
@@ -203,7 +203,7 @@ void Tracker::giveMatch(const PortraitScene& scene, PortraitTask& task, int64_t 
 }
 
 /// Where a track's lower edge has its middle, in 1/16 px, if a newcomer is its left or right part.
-std::optional<Point> Tracker::recognise(const Evidence& e, const Track& track,
+std::optional<Point> Tracker::recognise(const GroupGrid& e, const Track& track,
                                         const Newcomer& newcomer) {
   if (!isFaithful(track) || !e.picture) return {};
   const Size size = track.portrait.sizePx;
@@ -222,7 +222,7 @@ std::optional<Point> Tracker::recognise(const Evidence& e, const Track& track,
   return best;
 }
 
-void Tracker::learnPortrait(size_t index, const Evidence& e) {
+void Tracker::learnPortrait(size_t index, const GroupGrid& e) {
   Track& track = tracks_[index];
   const Sighting& s = sightings_[index];
   if (!e.picture || !track.isSeen || !s.isWhole || !s.isSole || s.isMatched) return;

@@ -69,7 +69,7 @@ Extent Tracker::sizeOfPart(const Track& track, const Box& box) const {
 }
 
 /// From a track that was seen whole: its own size and, every half height of its way, the scene's.
-void Tracker::learnSize(size_t index, int64_t stepNs, const Evidence& e) {
+void Tracker::learnSize(size_t index, int64_t stepNs, const GroupGrid& e) {
   Track& track = tracks_[index];
   const Sighting& s = sightings_[index];
   if (track.isSeen && s.isSole) track.apartNs += stepNs;
@@ -121,7 +121,7 @@ void Tracker::learnSize(size_t index, int64_t stepNs, const Evidence& e) {
 /// Every half height of a track's way the scene learns from the blob that the track is in, whatever
 /// tracks say of sizes: a wrong scale must not confirm itself. Blobs of several things side by side
 /// don't count; tracks above each other may be one thing that was taken apart.
-void Tracker::learnScale(const Evidence& e) {
+void Tracker::learnScale(const GroupGrid& e) {
   for (size_t i = 0; i < sightings_.size(); ++i) {
     Track& track = tracks_[i];
     const int64_t dx = track.x - track.learntX, dy = track.foot - track.learntFoot;
@@ -165,7 +165,7 @@ bool Tracker::movesOtherwise(const Track& a, const Track& b) {
 
 /// Whether two tracks seem to be one body: they lie above each other as its halves do, or together
 /// show no more than one of them should.
-bool Tracker::areOneBody(const Evidence& e, size_t a, size_t b) const {
+bool Tracker::areOneBody(const GroupGrid& e, size_t a, size_t b) const {
   const Track &p = tracks_[a], &q = tracks_[b];
   const Box first = p.box(), second = q.box(), both = unite(first, second);
   const int columns = std::min(first.right(), second.right()) - std::max(first.x, second.x);
@@ -193,7 +193,7 @@ bool Tracker::areOneBody(const Evidence& e, size_t a, size_t b) const {
 }
 
 /// Ends tracks that were one body with an older one for a while.
-void Tracker::joinDoubles(const Evidence& e, int64_t stepNs) {
+void Tracker::joinDoubles(const GroupGrid& e, int64_t stepNs) {
   for (size_t b = 0; b < sightings_.size(); ++b) {
     Track& track = tracks_[b];
     if (!track.isSeen) continue;

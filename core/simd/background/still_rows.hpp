@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// The hot loop of core/background/ghosts/still_parts.hpp over the columns of one word, by the
+// The hot loop of core/background/ghosts/ghosts.hpp over the columns of one word, by the
 // widest instructions there are.
 //
 // The same bits on every target. plain:: is the reference that the tests compare with.

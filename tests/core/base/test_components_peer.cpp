@@ -20,7 +20,7 @@ void expectSame(const Image<uint8_t>& mask, Connectivity connectivity) {
                                                      connectivity == Connectivity::Four ? 4 : 8);
   ASSERT_EQ(found.list.size(), static_cast<size_t>(count - 1));
   // OpenCV's numbers follow its blocks of 2x2: what holds the same pixels is the same.
-  for (const Run& run : found.runs) {
+  for (const ComponentRun& run : found.runs) {
     const int label = labels.at<int>(run.y, run.begin);
     for (int x = run.begin; x < run.end; ++x) ASSERT_EQ(labels.at<int>(run.y, x), label);
     const Component& component = found.list[run.component];

@@ -71,9 +71,9 @@ TEST(RegionGraph, RunsHoldThePixelsOfEachRegion) {
     const auto runs = graph->runs.of(region);
     return std::vector(runs.begin(), runs.end());
   };
-  EXPECT_EQ(runsOf(0), (std::vector<graph::RegionRun>{{0, 0, 2}, {1, 0, 1}}));
-  EXPECT_EQ(runsOf(1), (std::vector<graph::RegionRun>{{0, 2, 3}, {1, 2, 3}}));
-  EXPECT_EQ(runsOf(2), (std::vector<graph::RegionRun>{{1, 1, 2}}));
+  EXPECT_EQ(runsOf(0), (std::vector<rg::Run>{{0, 0, 2}, {1, 0, 1}}));
+  EXPECT_EQ(runsOf(1), (std::vector<rg::Run>{{0, 2, 3}, {1, 2, 3}}));
+  EXPECT_EQ(runsOf(2), (std::vector<rg::Run>{{1, 1, 2}}));
 }
 
 TEST(RegionGraph, LabelZeroHasNeitherNodeNorArc) {
@@ -160,7 +160,7 @@ TEST(RegionGraph, ThreadsChangeNothing) {
   Image<uint16_t> painted(labels->size);
   painted.fill(segmentation::kNoRegion);
   for (size_t i = 0; i < two->regions.size(); ++i)
-    for (const graph::RegionRun& run : two->runs.of(i))
+    for (const rg::Run& run : two->runs.of(i))
       std::fill(painted.row(run.y) + run.begin, painted.row(run.y) + run.end,
                 static_cast<uint16_t>(i + 1));
   for (int y = 0; y < labels->size.height; ++y)

@@ -14,10 +14,10 @@ uint64_t sumOf(const uint8_t* values, int count) {
 }
 
 void listParts(const OwnedCells& cells, ObjectPixelScratch& s) {
-  const Evidence& grid = cells.grid;
+  const GroupGrid& grid = cells.grid;
   s.parts.clear();
   s.firstOfRow.assign(static_cast<size_t>(grid.grid.height) + 1, 0);
-  grid.forParts(cells.owner, [&](const graph::RegionRun& part, uint16_t owner) {
+  grid.forParts(cells.owner, [&](const Run& part, uint16_t owner) {
     if (owner == 0) return;
     s.parts.push_back({part.begin * grid.stepPx, part.end * grid.stepPx, owner});
     ++s.firstOfRow[part.y + 1u];
@@ -26,7 +26,7 @@ void listParts(const OwnedCells& cells, ObjectPixelScratch& s) {
 }
 
 /// Runs come in raster order.
-void addRun(const graph::RegionRun& run, const Picture* picture, ObjectSums& sum) {
+void addRun(const Run& run, const Picture* picture, ObjectSums& sum) {
   const auto count = static_cast<uint64_t>(run.end - run.begin);
   if (sum.count == 0) sum.first = {run.begin, run.y};
   sum.count += count;
@@ -42,9 +42,9 @@ void addRun(const graph::RegionRun& run, const Picture* picture, ObjectSums& sum
 }
 
 /// Writes the owners of a region's pixels, and how far each row has any.
-void fillSlots(std::span<const graph::RegionRun> runs, const Evidence& grid, ObjectPixelScratch& s,
+void fillSlots(std::span<const Run> runs, const GroupGrid& grid, ObjectPixelScratch& s,
                Image<uint16_t>& slots) {
-  for (const graph::RegionRun& run : runs) {
+  for (const Run& run : runs) {
     const auto row = static_cast<size_t>(run.y / grid.stepPx);
     const auto end = s.parts.begin() + s.firstOfRow[row + 1];
     auto part = std::upper_bound(s.parts.begin() + s.firstOfRow[row], end, int{run.begin},
@@ -79,8 +79,8 @@ void findObjectPixels(const graph::Graph& graph, std::span<const uint8_t> isBack
     const ObjectPixelScratch::Extent extent = s.extents[static_cast<size_t>(y)];
     for (int begin = extent.first; begin < extent.last;) {
       const int end = graph::endOfRun(row, begin, extent.last);
-      const graph::RegionRun run{static_cast<uint16_t>(y), static_cast<uint16_t>(begin),
-                                 static_cast<uint16_t>(end)};
+      const Run run{static_cast<uint16_t>(y), static_cast<uint16_t>(begin),
+                    static_cast<uint16_t>(end)};
       if (row[begin] != 0) addRun(run, picture, pixels.sums[row[begin] - 1u]);
       begin = end;
     }

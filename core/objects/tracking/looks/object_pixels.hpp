@@ -7,7 +7,7 @@
 #pragma once
 
 #include "core/base/memory/image.hpp"
-#include "core/objects/tracking/evidence.hpp"
+#include "core/objects/tracking/group_grid.hpp"
 
 #include <cstdint>
 #include <span>
@@ -28,7 +28,7 @@ struct ObjectPixels {
 };
 
 struct OwnedCells {
-  const Evidence& grid;
+  const GroupGrid& grid;
   std::span<const uint16_t> owner;  ///< Of each cell: 1 + track, 0 = none.
 };
 

@@ -129,7 +129,7 @@ class RowLearner {
   }
 
   const Portrait& p_;
-  const Evidence& e_;
+  const GroupGrid& e_;
   PortraitColours colours_;
   std::span<const uint16_t> owner_;
   uint16_t own_;

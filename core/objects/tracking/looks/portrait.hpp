@@ -12,7 +12,7 @@
 
 #include "core/base/picture.hpp"
 #include "core/base/pixel.hpp"
-#include "core/objects/tracking/evidence.hpp"
+#include "core/objects/tracking/group_grid.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -81,7 +81,7 @@ class PortraitColours {
 
 /// What is looked at.
 struct PortraitScene {
-  const Evidence& evidence;
+  const GroupGrid& evidence;
   const Picture& picture;
   std::span<const uint8_t> taken;  ///< Of each cell: 1 = another thing covers it. May be empty.
 };
@@ -133,7 +133,7 @@ void learn(Portrait& portrait, const PortraitScene& scene, Point corner, Size si
            std::span<const uint16_t> owner, uint16_t own);
 
 /// The pixels that the result of a search depends on.
-[[nodiscard]] Box searchedBox(const Portrait& portrait, const Evidence& evidence,
+[[nodiscard]] Box searchedBox(const Portrait& portrait, const GroupGrid& evidence,
                               const PortraitSearch& where);
 
 [[nodiscard]] PortraitMatch findPortrait(const Portrait& portrait, const PortraitScene& scene,
@@ -148,7 +148,7 @@ void forPortraitCells(const Portrait& portrait, const PortraitScene& scene, Poin
 template <class Visit>
 void forPortraitCells(const Portrait& p, const PortraitScene& scene, Point corner,
                       const Visit& visit) {
-  const Evidence& e = scene.evidence;
+  const GroupGrid& e = scene.evidence;
   const PortraitColours colours(scene.picture);
   const int step = e.stepPx;
   const Box cells = intersect({(corner.x + step - 1) / step - 1, (corner.y + step - 1) / step - 1,

@@ -35,7 +35,7 @@ struct Window {
 
 /// Of the pixels from `begin` on of a row of cells.
 void lookAtRow(const PortraitScene& scene, int cellRow, int begin, int end, uint8_t* to) {
-  const Evidence& e = scene.evidence;
+  const GroupGrid& e = scene.evidence;
   const size_t first = e.at(0, cellRow);
   for (int x = begin; x < end;) {
     const int column = std::min(x / e.stepPx, e.grid.width - 1);
@@ -51,7 +51,7 @@ void lookAtRow(const PortraitScene& scene, int cellRow, int begin, int end, uint
 }
 
 Window look(const PortraitScene& scene, const Box& box, std::vector<uint8_t>& state) {
-  const Evidence& e = scene.evidence;
+  const GroupGrid& e = scene.evidence;
   state.assign(static_cast<size_t>(box.area()), kOutside);
   const Box inside = intersect(box, boundsOf(e.frame));
   const auto rowAt = [&](int y) {
@@ -241,7 +241,7 @@ class Finder {
 
 }  // namespace
 
-Box searchedBox(const Portrait& p, const Evidence& evidence, const PortraitSearch& where) {
+Box searchedBox(const Portrait& p, const GroupGrid& evidence, const PortraitSearch& where) {
   const int rim = 1 + evidence.stepPx;
   const Point corner = where.corner, reach = where.reach;
   return {corner.x - reach.x - rim, corner.y - reach.y - rim,

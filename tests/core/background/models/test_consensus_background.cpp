@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "core/background/ghosts/still_parts.hpp"
+#include "core/background/ghosts/ghosts.hpp"
 #include "core/background/light_switch.hpp"
 #include "core/background/models/consensus_background.hpp"
 #include "core/base/pixel.hpp"

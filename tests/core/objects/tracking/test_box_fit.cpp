@@ -9,8 +9,8 @@ namespace rg {
 namespace {
 
 /// A grid of cells with foreground in the given boxes, all of one colour bin and group.
-objects::Evidence gridWith(Size grid, const std::vector<Box>& foreground, uint8_t bin = 0) {
-  objects::Evidence e;
+objects::GroupGrid gridWith(Size grid, const std::vector<Box>& foreground, uint8_t bin = 0) {
+  objects::GroupGrid e;
   e.frame = e.grid = grid;
   e.group.assign(static_cast<size_t>(grid.area()), 0);
   e.bin.assign(e.group.size(), bin);
@@ -31,31 +31,32 @@ objects::FitTask taskAt(const Box& box, int tier = 0) {
   return task;
 }
 
-std::vector<objects::FitTask> fit(const objects::Evidence& e, std::vector<objects::FitTask> tasks) {
+std::vector<objects::FitTask> fit(const objects::GroupGrid& e,
+                                  std::vector<objects::FitTask> tasks) {
   objects::FitScratch scratch;
   objects::fitBoxes(e, tasks, scratch);
   return tasks;
 }
 
 TEST(BoxFit, ABoxMovesOntoTheForeground) {
-  const objects::Evidence e = gridWith({60, 60}, {{22, 20, 8, 20}});
+  const objects::GroupGrid e = gridWith({60, 60}, {{22, 20, 8, 20}});
   EXPECT_EQ(fit(e, {taskAt({18, 18, 8, 20})})[0].fitted, (Box{22, 20, 8, 20}));
 }
 
 TEST(BoxFit, NothingToSeeLeavesItWhereItWasExpected) {
-  const objects::Evidence e = gridWith({60, 60}, {});
+  const objects::GroupGrid e = gridWith({60, 60}, {});
   EXPECT_EQ(fit(e, {taskAt({18, 18, 8, 20})})[0].fitted, (Box{18, 18, 8, 20}));
 }
 
 TEST(BoxFit, TwoBoxesShareAWideBlob) {
-  const objects::Evidence e = gridWith({60, 60}, {{20, 20, 16, 20}});
+  const objects::GroupGrid e = gridWith({60, 60}, {{20, 20, 16, 20}});
   const auto tasks = fit(e, {taskAt({22, 20, 8, 20}), taskAt({26, 20, 8, 20})});
   EXPECT_EQ(tasks[0].fitted, (Box{20, 20, 8, 20}));
   EXPECT_EQ(tasks[1].fitted, (Box{28, 20, 8, 20}));
 }
 
 TEST(BoxFit, AHigherTierTakesWhatIsLeft) {
-  const objects::Evidence e = gridWith({60, 60}, {{20, 20, 8, 20}});
+  const objects::GroupGrid e = gridWith({60, 60}, {{20, 20, 8, 20}});
   const auto tasks = fit(e, {taskAt({20, 20, 8, 20}, 0), taskAt({21, 20, 8, 20}, 2)});
   EXPECT_EQ(tasks[0].fitted, (Box{20, 20, 8, 20}));
   std::vector<uint16_t> owner;
@@ -65,7 +66,7 @@ TEST(BoxFit, AHigherTierTakesWhatIsLeft) {
 }
 
 TEST(BoxFit, ColourDecidesWhereTwoPlacesAreAlike) {
-  objects::Evidence e = gridWith({60, 60}, {{14, 20, 8, 20}, {26, 20, 8, 20}});
+  objects::GroupGrid e = gridWith({60, 60}, {{14, 20, 8, 20}, {26, 20, 8, 20}});
   for (int y = 20; y < 40; ++y)
     for (int x = 26; x < 34; ++x) e.bin[e.at(x, y)] = 1;
   objects::FitTask task = taskAt({20, 20, 8, 20});
@@ -74,7 +75,7 @@ TEST(BoxFit, ColourDecidesWhereTwoPlacesAreAlike) {
 }
 
 TEST(BoxFit, ColourDecidesWhoOwnsACellOfBoth) {
-  const objects::Evidence e = gridWith({60, 60}, {{20, 20, 8, 20}}, 5);
+  const objects::GroupGrid e = gridWith({60, 60}, {{20, 20, 8, 20}}, 5);
   auto tasks = std::vector<objects::FitTask>{taskAt({20, 20, 8, 20}), taskAt({20, 20, 8, 20})};
   for (objects::FitTask& task : tasks) task.fitted = task.expected;
   std::vector<uint16_t> owner;
@@ -86,14 +87,14 @@ TEST(BoxFit, ColourDecidesWhoOwnsACellOfBoth) {
 }
 
 TEST(BoxFit, ABoxOfItsOwnSizeStaysWhenItIsHiddenInPart) {
-  const objects::Evidence e = gridWith({60, 60}, {{20, 20, 6, 20}});
+  const objects::GroupGrid e = gridWith({60, 60}, {{20, 20, 6, 20}});
   objects::FitTask task = taskAt({20, 20, 16, 20});
   task.isOfOwnSize = true;
   EXPECT_EQ(fit(e, {task})[0].fitted, task.expected);
 }
 
 TEST(BoxFit, ABoxPrefersWhatIsExpectedToBeItsOwn) {
-  objects::Evidence e = gridWith({60, 60}, {{14, 20, 8, 20}, {26, 20, 8, 20}});
+  objects::GroupGrid e = gridWith({60, 60}, {{14, 20, 8, 20}, {26, 20, 8, 20}});
   for (int y = 20; y < 40; ++y)
     for (int x = 14; x < 22; ++x) e.expected[e.at(x, y)] = 3;
   objects::FitTask task = taskAt({20, 20, 8, 20});
@@ -104,7 +105,7 @@ TEST(BoxFit, ABoxPrefersWhatIsExpectedToBeItsOwn) {
 }
 
 TEST(BoxFit, ACellOfBothBelongsToWhomItsRegionIsExpectedToBe) {
-  objects::Evidence e = gridWith({60, 60}, {{20, 20, 8, 20}}, 5);
+  objects::GroupGrid e = gridWith({60, 60}, {{20, 20, 8, 20}}, 5);
   e.expected[e.at(22, 22)] = 2;
   auto tasks = std::vector<objects::FitTask>{taskAt({20, 20, 8, 20}), taskAt({20, 20, 8, 20})};
   for (size_t i = 0; i < tasks.size(); ++i) {
@@ -118,7 +119,7 @@ TEST(BoxFit, ACellOfBothBelongsToWhomItsRegionIsExpectedToBe) {
 }
 
 TEST(BoxFit, BoxesMayReachBeyondTheFrame) {
-  const objects::Evidence e = gridWith({10, 10}, {{0, 0, 4, 10}});
+  const objects::GroupGrid e = gridWith({10, 10}, {{0, 0, 4, 10}});
   EXPECT_EQ(fit(e, {taskAt({-5, -3, 8, 20})})[0].fitted.right(), 4);
   (void)fit(gridWith({1, 1}, {{0, 0, 1, 1}}), {taskAt({-30, -30, 50, 70})});
 }

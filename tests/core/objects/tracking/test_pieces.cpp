@@ -13,8 +13,8 @@ namespace {
 
 using testing::ElementsAre;
 
-objects::Evidence drawn(const std::vector<std::string>& rows) {
-  objects::Evidence e;
+objects::GroupGrid drawn(const std::vector<std::string>& rows) {
+  objects::GroupGrid e;
   e.frame = e.grid = {static_cast<int>(rows[0].size()), static_cast<int>(rows.size())};
   for (const std::string& row : rows)
     for (const char c : row) e.group.push_back(c == '#');
@@ -22,7 +22,7 @@ objects::Evidence drawn(const std::vector<std::string>& rows) {
   return e;
 }
 
-std::vector<uint32_t> cellsOfPieces(const objects::Evidence& e,
+std::vector<uint32_t> cellsOfPieces(const objects::GroupGrid& e,
                                     const std::vector<uint16_t>& owner) {
   objects::PieceScratch scratch;
   std::vector<objects::Piece> pieces;
@@ -33,29 +33,29 @@ std::vector<uint32_t> cellsOfPieces(const objects::Evidence& e,
 }
 
 TEST(Pieces, AreConnectedThroughCornersInRasterOrder) {
-  const objects::Evidence e = drawn({"#..##", ".#...", "...#.", "#.#.."});
+  const objects::GroupGrid e = drawn({"#..##", ".#...", "...#.", "#.#.."});
   EXPECT_THAT(cellsOfPieces(e, std::vector<uint16_t>(20, 0)), ElementsAre(2, 2, 2, 1));
 }
 
 TEST(Pieces, BranchesThatMeetLaterAreOnePiece) {
-  const objects::Evidence e = drawn({"#...#", "#.#.#", "#####"});
+  const objects::GroupGrid e = drawn({"#...#", "#.#.#", "#####"});
   EXPECT_THAT(cellsOfPieces(e, std::vector<uint16_t>(15, 0)), ElementsAre(10));
 }
 
 TEST(Pieces, OwnedCellsAreNoPieces) {
-  const objects::Evidence e = drawn({"###", "###", "###"});
+  const objects::GroupGrid e = drawn({"###", "###", "###"});
   std::vector<uint16_t> owner(9, 0);
   owner[3] = owner[4] = owner[5] = 1;
   EXPECT_THAT(cellsOfPieces(e, owner), ElementsAre(3, 3));
 }
 
 TEST(Pieces, AScratchServesGridsOfAnySize) {
-  const objects::Evidence wide = drawn({"#..#..#..#", "..........", "#########."});
-  const objects::Evidence tall = drawn({"##", "..", "##", "..", "##", "..", "##", ".#"});
-  const objects::Evidence tiny = drawn({"#"});
+  const objects::GroupGrid wide = drawn({"#..#..#..#", "..........", "#########."});
+  const objects::GroupGrid tall = drawn({"##", "..", "##", "..", "##", "..", "##", ".#"});
+  const objects::GroupGrid tiny = drawn({"#"});
   objects::PieceScratch scratch;
   std::vector<objects::Piece> pieces;
-  for (const objects::Evidence* e : {&wide, &tall, &tiny, &wide, &tiny, &tall}) {
+  for (const objects::GroupGrid* e : {&wide, &tall, &tiny, &wide, &tiny, &tall}) {
     objects::findPieces(*e, {}, scratch, pieces);
     objects::PieceScratch fresh;
     std::vector<objects::Piece> expected;
@@ -67,7 +67,7 @@ TEST(Pieces, AScratchServesGridsOfAnySize) {
 
 /// Each row of the labels that cutPieces leaves, a digit a cell.
 std::vector<std::string> cutRows(const std::vector<std::string>& rows) {
-  const objects::Evidence e = drawn(rows);
+  const objects::GroupGrid e = drawn(rows);
   objects::PieceScratch scratch;
   std::vector<objects::Piece> pieces;
   objects::findPieces(e, std::vector<uint16_t>(e.group.size(), 0), scratch, pieces);
@@ -103,7 +103,7 @@ TEST(Pieces, ABodyIsNotCutFromItsLegsAndArms) {
 }
 
 TEST(Pieces, MoversThatTouchAreApartByTheirMotion) {
-  objects::Evidence e = drawn({"####", "####"});
+  objects::GroupGrid e = drawn({"####", "####"});
   for (size_t cell = 0; cell < e.group.size(); ++cell) e.group[cell] = cell % 4 < 2 ? 1 : 2;
   e.listRuns();
   e.cellsOf = {4, 4};
@@ -125,7 +125,7 @@ TEST(Pieces, MoversThatTouchAreApartByTheirMotion) {
 }
 
 /// The labels of findPieces() by a flood from each cell in raster order.
-std::vector<uint32_t> flooded(const objects::Evidence& e, const std::vector<uint16_t>& owner) {
+std::vector<uint32_t> flooded(const objects::GroupGrid& e, const std::vector<uint16_t>& owner) {
   std::vector<uint32_t> labels(e.group.size(), 0);
   uint32_t count = 0;
   const auto isFree = [&](size_t cell) { return e.group[cell] != 0 && owner[cell] == 0; };
@@ -155,7 +155,7 @@ std::vector<uint32_t> flooded(const objects::Evidence& e, const std::vector<uint
 TEST(Pieces, AreThoseOfAFloodOnNoiseOfGroupsAndOwners) {
   objects::PieceScratch scratch;  // Kept: what a frame leaves there must not show in the next.
   for (uint32_t seed = 0; seed < 60; ++seed) {
-    objects::Evidence e;
+    objects::GroupGrid e;
     e.frame = e.grid = {1 + static_cast<int>(seed * 7 % 40), 1 + static_cast<int>(seed * 3 % 17)};
     e.showsMovers = seed % 2 == 0;
     e.cellsOf = {10, 20, 30};

@@ -14,7 +14,7 @@ std::vector<uint32_t> owners(const std::string& labels, const std::string& owner
                              const std::vector<Point>& shifts) {
   segmentation::Labels regions;
   regions.ids.resize({static_cast<int>(labels.size()), 1});
-  objects::Evidence grid;
+  objects::GroupGrid grid;
   grid.frame = grid.grid = regions.ids.size();
   uint32_t count = 0;
   std::vector<uint16_t> ownerOfCell;

@@ -68,7 +68,7 @@ TEST(ObjectPixels, AreThoseOfTheForegroundInTheCellsOfAnObject) {
     const auto graph = graphOfNoise(size, 7);
     const std::vector<uint32_t> groupOf{0, 0, 1, 2, 3}, expectedOf(kRegions, 0);
     const std::vector<uint8_t> isBackgroundGroup{0, 1, 0, 0}, isBackground{0, 0, 1, 0, 0};
-    objects::Evidence grid;
+    objects::GroupGrid grid;
     objects::gather(*graph, groupOf, isBackgroundGroup, expectedOf, grid);
     std::vector<uint16_t> owner(grid.group.size(), 0);
     for (uint32_t i = 0; i < owner.size(); ++i)

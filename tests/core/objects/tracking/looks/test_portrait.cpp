@@ -49,7 +49,7 @@ class Stage {
   [[nodiscard]] size_t cells() const { return evidence_.group.size(); }
 
  private:
-  objects::Evidence evidence_;
+  objects::GroupGrid evidence_;
   Picture picture_;
   std::vector<uint8_t> taken_;
 };
@@ -310,7 +310,7 @@ class PlainSearch {
 
   /// 0 outside, 1 covered, 2 ground, 3 thing.
   [[nodiscard]] int stateAt(int x, int y) const {
-    const objects::Evidence& e = scene_.evidence;
+    const objects::GroupGrid& e = scene_.evidence;
     if (!boundsOf(e.frame).contains({x, y})) return 0;
     const size_t cell = e.at(x / e.stepPx, y / e.stepPx);
     return scene_.taken[cell] != 0 ? 1 : e.group[cell] == 0 ? 2 : 3;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "core/background/ghosts/moved_things.hpp"
+#include "core/background/ghosts/displaced_things.hpp"
 
 #include <algorithm>
 #include <array>
@@ -23,10 +23,10 @@ void count(const Colour& colour, std::vector<uint32_t>& histogram) {
 }
 
 void chooseStill(const BitMask& foreground, const StillPixels& still, int64_t leastAge,
-                 MovedScratch& scratch) {
+                 DisplacedScratch& scratch) {
   const std::vector<Component>& list = scratch.parts.list;
   scratch.stillPx.assign(list.size(), 0);
-  for (const Run& run : scratch.parts.runs)
+  for (const ComponentRun& run : scratch.parts.runs)
     for (int x = run.begin; x < run.end; ++x)
       scratch.stillPx[run.component] += still.ages.at(x, run.y) >= leastAge;
   const auto leastPx = static_cast<uint32_t>(std::max<int64_t>(30, foreground.size().area() / 500));
@@ -41,10 +41,10 @@ void chooseStill(const BitMask& foreground, const StillPixels& still, int64_t le
 
 /// How many pixels of a part have a colour that the model has beneath it as often.
 uint32_t countShared(const SmoothPicture& picture, const ConsensusBackground& model, size_t part,
-                     MovedScratch& scratch) {
+                     DisplacedScratch& scratch) {
   scratch.before.assign(kColours, 0);
   scratch.after.assign(kColours, 0);
-  for (const Run& run : scratch.parts.runs) {
+  for (const ComponentRun& run : scratch.parts.runs) {
     if (run.component != part) continue;
     for (int x = run.begin; x < run.end; ++x) {
       Colour now{}, then{};
@@ -63,9 +63,9 @@ uint32_t countShared(const SmoothPicture& picture, const ConsensusBackground& mo
 
 }  // namespace
 
-void addMoved(const SmoothPicture& picture, const ConsensusBackground& model,
-              const BitMask& foreground, const StillPixels& still, int64_t leastAge,
-              MovedScratch& scratch, BitMask& moved) {
+void addDisplaced(const SmoothPicture& picture, const ConsensusBackground& model,
+                  const BitMask& foreground, const StillPixels& still, int64_t leastAge,
+                  DisplacedScratch& scratch, BitMask& moved) {
   if (picture.channels == 1) return;
   findComponents(foreground, true, Connectivity::Eight, scratch.parts);
   chooseStill(foreground, still, leastAge, scratch);

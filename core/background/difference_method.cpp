@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Section 2.1: frame difference with a threshold from the histogram, and feedback from frame to
 // frame. Where it leaves a step open, the reading is said beside the step.
-#include "core/background/background_method.hpp"
 #include "core/background/cell_search.hpp"
-#include "core/background/ghosts/stopped_parts.hpp"
+#include "core/background/ghosts/outline_ghosts.hpp"
 #include "core/background/mask_cleaning.hpp"
-#include "core/background/moving_areas.hpp"
+#include "core/background/method.hpp"
 #include "core/background/scene_memory.hpp"
+#include "core/background/search_areas.hpp"
 #include "core/base/histogram.hpp"
 
 #include <algorithm>
@@ -38,19 +38,19 @@ void clearMask(Foreground& out) {
   out.extent = {};
 }
 
-class FrameDifferenceBackground final : public BackgroundMethodModel {
+class DifferenceMethod final : public MethodModel {
  public:
   void prepare(const Picture& picture) override;
-  void segment(const BackgroundJob& job, Foreground& out) override;
+  void segment(const MethodJob& job, Foreground& out) override;
   void breakOff() override { previous_.reset(); }
 
  private:
-  void start(const BackgroundJob& job, Foreground& out);
-  void scan(const BackgroundJob& job);
-  int thresholdOf(const BackgroundJob& job) const;
+  void start(const MethodJob& job, Foreground& out);
+  void scan(const MethodJob& job);
+  int thresholdOf(const MethodJob& job) const;
   SceneEvent compareScene(const ColourPlanes& now);
   void seed();
-  void judgeParts(const BackgroundJob& job);
+  void judgeParts(const MethodJob& job);
   void paint(Foreground& out);
   void learn(const ColourPlanes& now);
   void learnBox(const ColourPlanes& now, const Box& box);
@@ -64,7 +64,7 @@ class FrameDifferenceBackground final : public BackgroundMethodModel {
   Image<uint8_t> changes_;  ///< Of the scanned rows: how much each pixel changed.
   SceneMemory memory_;
   CellSearch search_;
-  std::vector<MovingArea> areas_, parts_;
+  std::vector<SearchArea> areas_, parts_;
   std::vector<PartSums> sums_;
   std::vector<Verdict> verdicts_;  ///< Of each part.
   Image<uint8_t> isKept_;          ///< Cells that the memory must not take over.
@@ -72,13 +72,13 @@ class FrameDifferenceBackground final : public BackgroundMethodModel {
   CleaningScratch scratch_;
 };
 
-void FrameDifferenceBackground::prepare(const Picture& picture) {
+void DifferenceMethod::prepare(const Picture& picture) {
   search_.prepare(picture.size());
   memory_.prepare(picture);
   isKept_.resize(search_.grid());
 }
 
-void FrameDifferenceBackground::start(const BackgroundJob& job, Foreground& out) {
+void DifferenceMethod::start(const MethodJob& job, Foreground& out) {
   memory_.forget();
   areas_.clear();
   hasStarted_ = true;
@@ -92,7 +92,7 @@ void FrameDifferenceBackground::start(const BackgroundJob& job, Foreground& out)
 /// The scan: in each frame some rows are looked at in full, all of them once in searchInterval
 /// frames. This is the paper's search of the whole frame for new things, dealt out evenly. The
 /// threshold is global: the histogram's pixels are those of the scanned rows.
-void FrameDifferenceBackground::scan(const BackgroundJob& job) {
+void DifferenceMethod::scan(const MethodJob& job) {
   const int height = job.picture->size().height;
   scanStep_ = std::clamp(job.params.searchInterval, 1, std::max(1, height / kLeastScannedRows));
   firstScanned_ = static_cast<int>(frame_.value() % static_cast<uint32_t>(scanStep_));
@@ -102,14 +102,14 @@ void FrameDifferenceBackground::scan(const BackgroundJob& job) {
     const ColourPlanes before = everyRow(planesOf(*previous_), firstScanned_, scanStep_);
     job.executor.forRows(changes_.height(), [&](int first, int last) {
       for (int y = first; y < last; ++y)
-        measureChange(now, before, {y, 0, changes_.width()}, changes_.row(y));
+        measureChange(now, before, runOf(y, 0, changes_.width()), changes_.row(y));
     });
   } else {
     changes_.fill(0);
   }
 }
 
-int FrameDifferenceBackground::thresholdOf(const BackgroundJob& job) const {
+int DifferenceMethod::thresholdOf(const MethodJob& job) const {
   if (job.params.threshold > 0) return job.params.threshold;
   if (job.params.thresholdFrom == ThresholdSource::Frame) {
     const ColourPlanes rows = everyRow(planesOf(*job.picture), firstScanned_, scanStep_);
@@ -126,7 +126,7 @@ int FrameDifferenceBackground::thresholdOf(const BackgroundJob& job) const {
 
 /// Is most of the scene that is known no longer there? Then its light was switched, or the camera
 /// moved or was covered.
-SceneEvent FrameDifferenceBackground::compareScene(const ColourPlanes& now) {
+SceneEvent DifferenceMethod::compareScene(const ColourPlanes& now) {
   uint64_t known = 0, brighter = 0, darker = 0;
   constexpr int kEvery = 16;  // A share of the columns tells it as well.
   const ColourPlanes seen = memory_.planes();
@@ -150,9 +150,9 @@ SceneEvent FrameDifferenceBackground::compareScene(const ColourPlanes& now) {
                                                                      : SceneEvent::CameraMoved;
 }
 
-void FrameDifferenceBackground::seed() {
+void DifferenceMethod::seed() {
   search_.begin();
-  for (const MovingArea& area : areas_) search_.addArea(searchBox(area));
+  for (const SearchArea& area : areas_) search_.addArea(searchBox(area));
   for (int row = 0; row < changes_.height(); ++row)
     search_.addHits(changes_.row(row), firstScanned_ + row * scanStep_, threshold_);
 }
@@ -160,13 +160,13 @@ void FrameDifferenceBackground::seed() {
 /// What the parts are. Things hold a seed and are large enough. What stands still belongs to the
 /// scene when it has done so for the absorb-time, when it did not come from elsewhere (a lamp was
 /// lit), or when it is only the place that a thing has left.
-void FrameDifferenceBackground::judgeParts(const BackgroundJob& job) {
+void DifferenceMethod::judgeParts(const MethodJob& job) {
   const Size frame = job.picture->size();
   followAreas(search_, areas_, frame, sums_, parts_);
   const int64_t absorbFrames = job.clock.frames(job.params.absorbTimeS);
   verdicts_.resize(parts_.size());
   for (uint32_t i = 0; i < parts_.size(); ++i) {
-    const MovingArea& part = parts_[i];
+    const SearchArea& part = parts_[i];
     const bool isAsked = part.stillFrames > 0 && part.stillFrames % kAskedFrames == 0;
     if (!search_.hasSeed(i) || part.foundPx < leastPx(frame))
       verdicts_[i] = Verdict::Noise;
@@ -179,16 +179,16 @@ void FrameDifferenceBackground::judgeParts(const BackgroundJob& job) {
   }
 }
 
-void FrameDifferenceBackground::paint(Foreground& out) {
+void DifferenceMethod::paint(Foreground& out) {
   clearMask(out);
   const Size frame = out.mask.size();
-  for (const Run& run : search_.parts().runs) {
+  for (const ComponentRun& run : search_.parts().runs) {
     if (verdicts_[run.component] != Verdict::Thing) continue;
     const Box box = pixelsOfCells(run, frame);
     out.extent = unite(out.extent, box);
     for (int y = box.y; y < box.bottom(); ++y)
       keepDense(search_.foundRow(y - 1), search_.foundRow(y), search_.foundRow(y + 1),
-                {y, box.x, box.right()}, out.mask.row(y));
+                runOf(y, box.x, box.right()), out.mask.row(y));
   }
   const ImageView<uint8_t> part = out.mask.view().crop(out.extent);
   packEqual(part, kForegroundPixel, bits_);
@@ -200,11 +200,11 @@ void FrameDifferenceBackground::paint(Foreground& out) {
 
 /// The scanned rows become the scene, but for the cells of things and those around them. So do, at
 /// once, the parts that belong to it.
-void FrameDifferenceBackground::learn(const ColourPlanes& now) {
+void DifferenceMethod::learn(const ColourPlanes& now) {
   const Size frame = now.green.size;
   const Box grid = boundsOf(isKept_.size());
   isKept_.fill(0);
-  for (const Run& run : search_.parts().runs) {
+  for (const ComponentRun& run : search_.parts().runs) {
     const Box cells{run.begin, run.y, run.end - run.begin, 1};
     if (verdicts_[run.component] == Verdict::Scene) learnBox(now, pixelsOfCells(cells, frame));
     if (verdicts_[run.component] != Verdict::Thing) continue;
@@ -217,24 +217,25 @@ void FrameDifferenceBackground::learn(const ColourPlanes& now) {
     for (int x = 0; x < grid.width;) {
       const int begin = x;
       while (x < grid.width && kept[x] == 0) ++x;
-      if (x > begin) memory_.learn(now, {y, begin * kCellPx, std::min(x * kCellPx, frame.width)});
+      if (x > begin)
+        memory_.learn(now, runOf(y, begin * kCellPx, std::min(x * kCellPx, frame.width)));
       while (x < grid.width && kept[x] != 0) ++x;
     }
   }
 }
 
-void FrameDifferenceBackground::learnBox(const ColourPlanes& now, const Box& box) {
-  for (int y = box.y; y < box.bottom(); ++y) memory_.learn(now, {y, box.x, box.right()});
+void DifferenceMethod::learnBox(const ColourPlanes& now, const Box& box) {
+  for (int y = box.y; y < box.bottom(); ++y) memory_.learn(now, runOf(y, box.x, box.right()));
 }
 
 /// Things of one frame are looked for in the next: all of them, unless there are so many that most
 /// are noise; then the largest.
-void FrameDifferenceBackground::rememberAreas() {
+void DifferenceMethod::rememberAreas() {
   areas_.clear();
   for (size_t i = 0; i < parts_.size(); ++i)
     if (verdicts_[i] == Verdict::Thing) areas_.push_back(parts_[i]);
   if (areas_.size() <= kMostAreas) return;
-  const auto isLarger = [](const MovingArea& a, const MovingArea& b) {
+  const auto isLarger = [](const SearchArea& a, const SearchArea& b) {
     return std::tuple(b.foundPx, a.box.y, a.box.x) < std::tuple(a.foundPx, b.box.y, b.box.x);
   };
   std::nth_element(areas_.begin(), areas_.begin() + kMostAreas, areas_.end(), isLarger);
@@ -242,7 +243,7 @@ void FrameDifferenceBackground::rememberAreas() {
   std::sort(areas_.begin(), areas_.end(), isLarger);
 }
 
-void FrameDifferenceBackground::segment(const BackgroundJob& job, Foreground& out) {
+void DifferenceMethod::segment(const MethodJob& job, Foreground& out) {
   if (!hasStarted_) return start(job, out);
   ++frame_;
   const ColourPlanes now = planesOf(*job.picture);
@@ -264,8 +265,8 @@ void FrameDifferenceBackground::segment(const BackgroundJob& job, Foreground& ou
 
 }  // namespace
 
-std::unique_ptr<BackgroundMethodModel> makeFrameDifferenceBackground() {
-  return std::make_unique<FrameDifferenceBackground>();
+std::unique_ptr<MethodModel> makeDifferenceMethod() {
+  return std::make_unique<DifferenceMethod>();
 }
 
 }  // namespace rg::background

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "core/objects/tracking/evidence.hpp"
+#include "core/objects/tracking/group_grid.hpp"
 #include "tests/core/scenes.hpp"
 
 #include <gmock/gmock.h>
@@ -10,7 +10,7 @@ namespace {
 
 using testing::ElementsAre;
 
-TEST(Evidence, CellsSampleTheGroupsThatAreNoBackground) {
+TEST(GroupGrid, CellsSampleTheGroupsThatAreNoBackground) {
   auto labels = std::make_shared<segmentation::Labels>();
   labels->size = {640, 480};
   labels->ids.resize(labels->size);
@@ -22,7 +22,7 @@ TEST(Evidence, CellsSampleTheGroupsThatAreNoBackground) {
   labels->picture = picture;
   labels->status = Status::Ok;
   const auto graph = *graph::makeStage(scenes::contextWith(1))->process(labels, {});
-  objects::Evidence e;
+  objects::GroupGrid e;
   objects::gather(*graph, std::vector<uint32_t>{0, 1}, std::vector<uint8_t>{1, 0},
                   std::vector<uint32_t>{0, 7}, e);
   EXPECT_EQ(e.stepPx, 2);
@@ -32,7 +32,7 @@ TEST(Evidence, CellsSampleTheGroupsThatAreNoBackground) {
   EXPECT_EQ(e.group[e.at(10, 10)], 0);
   EXPECT_EQ(e.expected[e.at(60, 60)], 7);
   EXPECT_EQ(e.runs.size(), 50u);
-  EXPECT_EQ(e.runs.front(), (graph::RegionRun{50, 50, 75}));
+  EXPECT_EQ(e.runs.front(), (rg::Run{50, 50, 75}));
 }
 
 }  // namespace

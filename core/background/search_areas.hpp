@@ -17,7 +17,7 @@
 
 namespace rg::background {
 
-struct MovingArea {
+struct SearchArea {
   Box box;         ///< Of the part that was found, in pixels, whole cells.
   Point centroid;  ///< Of its found pixels, by cells, in 1/16 px.
   Point step;      ///< V DT: how far the part may go until the next frame, in px.
@@ -34,11 +34,11 @@ struct PartSums {
 };
 
 /// Where to look for it in the next frame; may reach over the frame's border.
-[[nodiscard]] Box searchBox(const MovingArea& area);
+[[nodiscard]] Box searchBox(const SearchArea& area);
 
 /// What the parts of a search say of the things in them: one area a part, in the parts' order,
 /// including those without a seed. `before`: the areas of the previous frame.
-void followAreas(const CellSearch& search, const std::vector<MovingArea>& before, Size frame,
-                 std::vector<PartSums>& sums, std::vector<MovingArea>& areas);
+void followAreas(const CellSearch& search, const std::vector<SearchArea>& before, Size frame,
+                 std::vector<PartSums>& sums, std::vector<SearchArea>& areas);
 
 }  // namespace rg::background

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "core/background/moving_areas.hpp"
+#include "core/background/search_areas.hpp"
 
 #include "core/base/pixel.hpp"
 
@@ -11,7 +11,7 @@ namespace {
 constexpr int kCentroidUnit = 16;
 constexpr int kMostStepShare = 8;  ///< No step is longer than this share of the frame's side.
 
-void addRun(const CellSearch& search, const Run& run, PartSums& sums) {
+void addRun(const CellSearch& search, const ComponentRun& run, PartSums& sums) {
   for (int x = run.begin; x < run.end; ++x) {
     const auto found = static_cast<uint64_t>(search.found(x, run.y));
     sums.found += found;
@@ -22,10 +22,10 @@ void addRun(const CellSearch& search, const Run& run, PartSums& sums) {
 }
 
 /// The area whose search box has most in common with the part's box.
-const MovingArea* areaOf(const Box& part, const std::vector<MovingArea>& before) {
-  const MovingArea* best = nullptr;
+const SearchArea* areaOf(const Box& part, const std::vector<SearchArea>& before) {
+  const SearchArea* best = nullptr;
   int64_t most = 0;
-  for (const MovingArea& area : before) {
+  for (const SearchArea& area : before) {
     const int64_t common = intersect(part, searchBox(area)).area();
     if (common <= most) continue;
     most = common;
@@ -35,7 +35,7 @@ const MovingArea* areaOf(const Box& part, const std::vector<MovingArea>& before)
 }
 
 /// Less than a 64th of its pixels, or than a cell needs, is noise.
-bool hasMoved(const MovingArea& area) {
+bool hasMoved(const SearchArea& area) {
   return area.movedPx >= std::max<uint32_t>(kLeastOccupied, area.foundPx / 64);
 }
 
@@ -51,25 +51,25 @@ int stepOf(int moved, int stepBefore, int side) {
 
 }  // namespace
 
-Box searchBox(const MovingArea& area) {
+Box searchBox(const SearchArea& area) {
   const int x = area.step.x + kCellPx, y = area.step.y + kCellPx;
   return {area.box.x - x, area.box.y - y, area.box.width + 2 * x, area.box.height + 2 * y};
 }
 
-void followAreas(const CellSearch& search, const std::vector<MovingArea>& before, Size frame,
-                 std::vector<PartSums>& sums, std::vector<MovingArea>& areas) {
+void followAreas(const CellSearch& search, const std::vector<SearchArea>& before, Size frame,
+                 std::vector<PartSums>& sums, std::vector<SearchArea>& areas) {
   const Components& parts = search.parts();
   sums.assign(parts.list.size(), {});
-  for (const Run& run : parts.runs) addRun(search, run, sums[run.component]);
+  for (const ComponentRun& run : parts.runs) addRun(search, run, sums[run.component]);
   areas.assign(parts.list.size(), {});
   for (size_t i = 0; i < areas.size(); ++i) {
-    MovingArea& area = areas[i];
+    SearchArea& area = areas[i];
     const PartSums& sum = sums[i];
     area.box = pixelsOfCells(parts.list[i].box, frame);
     area.centroid = {static_cast<int>(sum.x / sum.found), static_cast<int>(sum.y / sum.found)};
     area.foundPx = static_cast<uint32_t>(sum.found);
     area.movedPx = static_cast<uint32_t>(sum.moved);
-    const MovingArea* was =
+    const SearchArea* was =
         search.hasSeed(static_cast<uint32_t>(i)) ? areaOf(area.box, before) : nullptr;
     area.origin = area.centroid;
     if (!was) continue;

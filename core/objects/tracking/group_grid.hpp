@@ -17,7 +17,7 @@
 
 namespace rg::objects {
 
-struct Evidence {
+struct GroupGrid {
   int stepPx = 1;  ///< Side of a cell; 1 up to 288 lines, then growing with the frame.
   Size frame;
   const Picture* picture = nullptr;  ///< Of this frame; null where there is none.
@@ -32,9 +32,8 @@ struct Evidence {
   std::vector<uint16_t> trustOf;   ///< How reliable that is, in 1/256; empty where groups are
                                    ///< things (showsMovers).
   std::vector<uint8_t> isKnown;    ///< Of each group: an object of which the portrait is known.
-  std::vector<graph::RegionRun>
-      runs;  ///< Of the cells that are no background, of one group each. Row by
-             ///< row: what walks them costs nothing where nothing is.
+  std::vector<Run> runs;  ///< Of the cells that are no background, of one group each. Row by
+                          ///< row: what walks them costs nothing where nothing is.
   std::vector<uint16_t> runBegins;  ///< Scratch.
   /// For each row and column of pixels the first cell whose middle does not come before it; one
   /// entry more than there are pixels.
@@ -56,19 +55,19 @@ struct Evidence {
   /// Calls visit(index, x, y) for the cells that are no background, in raster order.
   template <class Visit>
   void forForeground(Visit&& visit) const {
-    for (const graph::RegionRun& run : runs)
+    for (const Run& run : runs)
       for (int x = run.begin; x < run.end; ++x) visit(at(x, run.y), x, int{run.y});
   }
   /// Calls visit(part, value) for the longest parts of the runs over which a cell's value is the
   /// same, in raster order.
   template <class Visit>
   void forParts(std::span<const uint16_t> values, Visit&& visit) const {
-    for (const graph::RegionRun& run : runs) {
+    for (const Run& run : runs) {
       const uint16_t* row = values.data() + at(0, run.y);
       for (uint16_t begin = run.begin, end = begin; begin < run.end; begin = end) {
         const uint16_t value = row[begin];
         end = static_cast<uint16_t>(graph::endOfRun(row, begin, run.end));
-        visit(graph::RegionRun{run.y, begin, end}, value);
+        visit(Run{run.y, begin, end}, value);
       }
     }
   }
@@ -80,16 +79,16 @@ struct Evidence {
 /// each region 1 + the track that it is predicted to be, 0 = none.
 void gather(const graph::Graph& graph, std::span<const uint32_t> groupOf,
             std::span<const uint8_t> isBackground, std::span<const uint32_t> expectedOf,
-            Evidence& evidence);
+            GroupGrid& evidence);
 
 /// Whether two groups are two things because they move differently, the more so the smaller one is
 /// against the other.
-[[nodiscard]] bool areApart(const Evidence& evidence, uint16_t a, uint16_t b);
+[[nodiscard]] bool areApart(const GroupGrid& evidence, uint16_t a, uint16_t b);
 
 /// The same where neither is known: what has a portrait is told from others by that.
-[[nodiscard]] bool areStrangersApart(const Evidence& evidence, uint16_t a, uint16_t b);
+[[nodiscard]] bool areStrangersApart(const GroupGrid& evidence, uint16_t a, uint16_t b);
 
 /// Whether a group is known to stand still, as what somebody uncovered does who was there first.
-[[nodiscard]] bool isKnownToStand(const Evidence& evidence, uint16_t group);
+[[nodiscard]] bool isKnownToStand(const GroupGrid& evidence, uint16_t group);
 
 }  // namespace rg::objects

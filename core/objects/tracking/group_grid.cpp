@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "core/objects/tracking/evidence.hpp"
+#include "core/objects/tracking/group_grid.hpp"
 
 #include "core/objects/merge/motion_layers.hpp"
 #include "core/objects/tracking/looks/appearance.hpp"
@@ -25,7 +25,7 @@ void listCells(int pixels, int cells, const MiddleOf& middleOf, std::vector<uint
   }
 }
 
-void layGrid(Size frame, Evidence& e) {
+void layGrid(Size frame, GroupGrid& e) {
   if (e.frame == frame && !e.cellFromRow.empty()) return;
   e.frame = frame;
   e.stepPx = std::max(1, std::min(frame.width, frame.height) / kGridLines);
@@ -37,13 +37,13 @@ void layGrid(Size frame, Evidence& e) {
 }
 
 /// The cells whose middles lie in a run of pixels.
-graph::RegionRun cellsIn(const Evidence& e, const graph::RegionRun& run) {
+Run cellsIn(const GroupGrid& e, const Run& run) {
   const uint16_t y = e.cellFromRow[run.y];
   if (e.cellFromRow[run.y + 1u] == y) return {};
   return {y, e.cellFromColumn[run.begin], e.cellFromColumn[run.end]};
 }
 
-void findBins(const Picture& picture, const graph::RegionRun& cells, Evidence& e) {
+void findBins(const Picture& picture, const Run& cells, GroupGrid& e) {
   const int y = e.middleOf(0, cells.y).y;
   const uint8_t *red = picture.red().row(y), *green = picture.green().row(y);
   const uint8_t* blue = picture.blue().row(y);
@@ -59,7 +59,7 @@ void findBins(const Picture& picture, const graph::RegionRun& cells, Evidence& e
 constexpr int64_t kLeastApart = 6;  // 1/16 px per frame by which two things differ.
 constexpr int kMostOfStanding = 8;  // The same, by which something may be off that stands.
 
-bool isTrusted(const Evidence& e, uint16_t group) {
+bool isTrusted(const GroupGrid& e, uint16_t group) {
   return !e.trustOf.empty() && e.trustOf[group - 1u] >= kLeastTrust;
 }
 
@@ -67,7 +67,7 @@ bool isTrusted(const Evidence& e, uint16_t group) {
 
 void gather(const graph::Graph& graph, std::span<const uint32_t> groupOf,
             std::span<const uint8_t> isBackground, std::span<const uint32_t> expectedOf,
-            Evidence& e) {
+            GroupGrid& e) {
   layGrid(graph.size, e);
   const auto cells = static_cast<size_t>(e.grid.area());
   e.group.assign(cells, 0);
@@ -78,8 +78,8 @@ void gather(const graph::Graph& graph, std::span<const uint32_t> groupOf,
   for (size_t region = 0; region < groupOf.size(); ++region) {
     const uint32_t group = groupOf[region];
     if (isBackground[group]) continue;
-    for (const graph::RegionRun& run : graph.runs.of(region)) {
-      const graph::RegionRun found = cellsIn(e, run);
+    for (const Run& run : graph.runs.of(region)) {
+      const Run found = cellsIn(e, run);
       const int count = found.end - found.begin;
       if (count == 0) continue;
       const size_t first = e.at(found.begin, found.y);
@@ -92,7 +92,7 @@ void gather(const graph::Graph& graph, std::span<const uint32_t> groupOf,
   e.listRuns();
 }
 
-bool areApart(const Evidence& e, uint16_t a, uint16_t b) {
+bool areApart(const GroupGrid& e, uint16_t a, uint16_t b) {
   if (a == b || a == 0 || b == 0 || e.motionOf.empty()) return false;
   if (!e.showsMovers && !(isTrusted(e, a) && isTrusted(e, b))) return false;
   const auto moverOf = [&](uint16_t group) {
@@ -103,20 +103,20 @@ bool areApart(const Evidence& e, uint16_t a, uint16_t b) {
   return moveApart(moverOf(a), moverOf(b), e.showsMovers ? kLeastApart : kLeastDrift);
 }
 
-bool areStrangersApart(const Evidence& e, uint16_t a, uint16_t b) {
+bool areStrangersApart(const GroupGrid& e, uint16_t a, uint16_t b) {
   const auto isKnown = [&](uint16_t group) {
     return group != 0 && !e.isKnown.empty() && e.isKnown[group - 1u] != 0;
   };
   return !isKnown(a) && !isKnown(b) && areApart(e, a, b);
 }
 
-bool isKnownToStand(const Evidence& e, uint16_t group) {
+bool isKnownToStand(const GroupGrid& e, uint16_t group) {
   if (group == 0 || !isTrusted(e, group)) return false;
   const Point v = e.motionOf[group - 1u];
   return std::abs(v.x) + std::abs(v.y) < kMostOfStanding;
 }
 
-void Evidence::listRuns() {
+void GroupGrid::listRuns() {
   runs.clear();
   std::vector<uint16_t>& begins = runBegins;
   begins.resize(static_cast<size_t>(grid.width) + 1);

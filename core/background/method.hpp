@@ -9,27 +9,27 @@
 namespace rg::background {
 
 /// One frame's work order. The stage has checked that the size is the model's.
-struct BackgroundJob {
+struct MethodJob {
   std::shared_ptr<const Picture> picture;
   const Params& params;
   const FrameClock& clock;
   const Executor& executor;
 };
 
-class BackgroundMethodModel {
+class MethodModel {
  public:
-  virtual ~BackgroundMethodModel() = default;
+  virtual ~MethodModel() = default;
   /// Allocates whatever segment() needs for such pictures. May throw; changes no model.
   virtual void prepare(const Picture& picture) = 0;
   /// Writes status, mask, extent and scene; then learns the frame. The mask has the picture's size
   /// and is background outside of the extent, which is that of an earlier frame.
-  virtual void segment(const BackgroundJob& job, Foreground& out) = 0;
+  virtual void segment(const MethodJob& job, Foreground& out) = 0;
   /// The next frame does not follow the last one.
   virtual void breakOff() = 0;
 };
 
-[[nodiscard]] std::unique_ptr<BackgroundMethodModel> makePaperBackground();
-[[nodiscard]] std::unique_ptr<BackgroundMethodModel> makeHybridBackground();
-[[nodiscard]] std::unique_ptr<BackgroundMethodModel> makeFrameDifferenceBackground();
+[[nodiscard]] std::unique_ptr<MethodModel> makePaperMethod();
+[[nodiscard]] std::unique_ptr<MethodModel> makeConsensusMethod();
+[[nodiscard]] std::unique_ptr<MethodModel> makeDifferenceMethod();
 
 }  // namespace rg::background

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "core/background/ghosts/still_parts.hpp"
+#include "core/background/ghosts/ghosts.hpp"
 
 #include "core/base/pixel.hpp"
 #include "core/simd/background/still_rows.hpp"
@@ -50,7 +50,7 @@ class ContourReader {
         fresh_(fresh),
         contours_(scratch.contours) {}
 
-  void read(const Run& run) {
+  void read(const ComponentRun& run) {
     addAcross({run.begin, run.y}, {-1, 0}, run.component);
     addAcross({run.end - 1, run.y}, {1, 0}, run.component);
     for (int x = run.begin; x < run.end; ++x) {
@@ -161,12 +161,12 @@ uint32_t findGhosts(const SmoothPicture& picture, const ConsensusBackground& mod
   findComponents(scratch.still, true, Connectivity::Eight, scratch.parts);
   scratch.contours.assign(scratch.parts.list.size(), {});
   ContourReader reader(picture, model, foreground, scratch, still.fresh);
-  for (const Run& run : scratch.parts.runs) reader.read(run);
+  for (const ComponentRun& run : scratch.parts.runs) reader.read(run);
   const uint32_t pixels = judgeParts(scratch);
   if (pixels == 0) return 0;
   paintComponents(scratch.parts, scratch.isGhost, true, ghosts);
   paintComponents(scratch.parts, scratch.isGhost, kFreshFrames, still.fresh);
-  for (const Run& run : scratch.parts.runs)
+  for (const ComponentRun& run : scratch.parts.runs)
     if (scratch.isGhost[run.component] != 0)
       still.freshRows[static_cast<size_t>(run.y)] = kFreshFrames;
   return pixels;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "core/objects/tracking/stopped_things.hpp"
+#include "core/objects/tracking/standing_tracks.hpp"
 
 #include <algorithm>
 
@@ -49,9 +49,9 @@ bool isSeenStanding(const Track& track, const Picture& picture, Point expected, 
 
 }  // namespace
 
-void findStoppedThings(std::span<const Track> tracks, const segmentation::Labels& labels,
-                       Point camera, std::span<const graph::Region> regions, StoppedScratch& s,
-                       std::span<StoppedThing> ofRegion) {
+void findStandingTracks(std::span<const Track> tracks, const segmentation::Labels& labels,
+                        Point camera, std::span<const graph::Region> regions, StandingScratch& s,
+                        std::span<StandingTrack> ofRegion) {
   s.votes.resize(std::max(s.votes.size(), regions.size()), 0);
   for (uint32_t t = 0; t < tracks.size(); ++t) {
     const Track& track = tracks[t];

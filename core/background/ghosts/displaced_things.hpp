@@ -5,7 +5,7 @@
 // Determinism: integers; parts in raster order (core/base/components.hpp).
 #pragma once
 
-#include "core/background/ghosts/still_parts.hpp"
+#include "core/background/ghosts/ghosts.hpp"
 #include "core/background/models/consensus_background.hpp"
 #include "core/base/components.hpp"
 
@@ -14,7 +14,7 @@
 
 namespace rg::background {
 
-struct MovedScratch {
+struct DisplacedScratch {
   Components parts;
   std::vector<uint32_t> stillPx;        ///< Of each part.
   std::vector<uint8_t> isChosen;        ///< Of each part.
@@ -25,8 +25,8 @@ struct MovedScratch {
 /// for `leastAge` frames and that share at least an eighth of their pixels' colours with the model
 /// beneath them. Only vivid colours count: grey on grey is no evidence. At most 16 parts are looked
 /// at; nothing is found in a grey picture.
-void addMoved(const SmoothPicture& picture, const ConsensusBackground& model,
-              const BitMask& foreground, const StillPixels& still, int64_t leastAge,
-              MovedScratch& scratch, BitMask& moved);
+void addDisplaced(const SmoothPicture& picture, const ConsensusBackground& model,
+                  const BitMask& foreground, const StillPixels& still, int64_t leastAge,
+                  DisplacedScratch& scratch, BitMask& moved);
 
 }  // namespace rg::background

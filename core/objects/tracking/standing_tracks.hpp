@@ -18,12 +18,12 @@
 namespace rg::objects {
 
 /// What a region shows of a thing that stands on the ground.
-struct StoppedThing {
+struct StandingTrack {
   uint32_t track = 0;   ///< 1 + track, 0 = none.
   uint32_t areaPx = 0;  ///< Of the region's pixels those that have its colours.
 };
 
-struct StoppedScratch {
+struct StandingScratch {
   std::vector<uint32_t> votes;  ///< Of each region; all 0 between tracks.
   std::vector<uint32_t> seen;   ///< Regions with votes.
 };
@@ -31,8 +31,8 @@ struct StoppedScratch {
 /// tracks: as they were in the previous frame; camera: how the ground has moved since, in 1/16 px.
 /// Result: of each region that a thing shows in at least half of its pixels, that thing; `ofRegion`
 /// comes with an entry per region. Cost: nine looks at a part of each portrait.
-void findStoppedThings(std::span<const Track> tracks, const segmentation::Labels& labels,
-                       Point camera, std::span<const graph::Region> regions,
-                       StoppedScratch& scratch, std::span<StoppedThing> ofRegion);
+void findStandingTracks(std::span<const Track> tracks, const segmentation::Labels& labels,
+                        Point camera, std::span<const graph::Region> regions,
+                        StandingScratch& scratch, std::span<StandingTrack> ofRegion);
 
 }  // namespace rg::objects

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "core/background/ghosts/moved_things.hpp"
+#include "core/background/ghosts/displaced_things.hpp"
 #include "tests/support/text_picture.hpp"
 
 #include <gtest/gtest.h>
@@ -42,10 +42,10 @@ uint32_t moved(Rgb before, Rgb after, int stillPercent = 100) {
         foreground.set(x, y);
         if ((x * 7 + y * 13) % 100 < stillPercent) still.ages.at(x, y) = 45;
       }
-  background::MovedScratch scratch;
-  background::addMoved(now, model, foreground, still, 45, scratch, out);
-  background::addMoved(now, model, foreground, still, 46, scratch,
-                       out);  // Nothing is as old as that.
+  background::DisplacedScratch scratch;
+  background::addDisplaced(now, model, foreground, still, 45, scratch, out);
+  background::addDisplaced(now, model, foreground, still, 46, scratch,
+                           out);  // Nothing is as old as that.
   return countSet(out);
 }
 

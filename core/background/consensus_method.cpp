@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// The default method: the paper's structure over a model of several modes.
-#include "core/background/background_method.hpp"
+// Method hybrid, the default: adaptive sample consensus. Each pixel remembers colours that it had
+// (models/consensus_background.hpp), and decides by itself how near is near; round that lies the
+// paper's structure: validation, shadows, what stands still.
+#include "core/background/ghosts/displaced_things.hpp"
+#include "core/background/ghosts/ghosts.hpp"
 #include "core/background/ghosts/mask_contour.hpp"
-#include "core/background/ghosts/moved_things.hpp"
-#include "core/background/ghosts/still_parts.hpp"
 #include "core/background/light_switch.hpp"
 #include "core/background/mask_cleaning.hpp"
+#include "core/background/method.hpp"
 #include "core/background/models/consensus_background.hpp"
 #include "core/background/scene_watch.hpp"
 #include "core/background/shadows/cast_shadows.hpp"
@@ -33,28 +35,28 @@ constexpr bool startsAnew(SceneEvent event) {
   return event == SceneEvent::ColourSwitched || event == SceneEvent::CameraMoved;
 }
 
-class HybridBackground final : public BackgroundMethodModel {
+class ConsensusMethod final : public MethodModel {
  public:
   void prepare(const Picture& picture) override;
-  void segment(const BackgroundJob& job, Foreground& out) override;
+  void segment(const MethodJob& job, Foreground& out) override;
   void breakOff() override {}
 
  private:
-  bool isFirst(const BackgroundJob& job) const {
+  bool isFirst(const MethodJob& job) const {
     return frame_.value() < static_cast<uint32_t>(job.params.trainingFrames);
   }
-  void start(const BackgroundJob& job, Foreground& out);
+  void start(const MethodJob& job, Foreground& out);
   bool isTooDark(Foreground& out);
-  void watch(const BackgroundJob& job, Foreground& out);
-  SceneEvent followCamera(const BackgroundJob& job);
-  SceneEvent followLight(const BackgroundJob& job);
-  bool isElsewhere(const BackgroundJob& job);
-  void clean(const BackgroundJob& job);
-  void refine(const BackgroundJob& job);
-  void findShadow(const BackgroundJob& job);
-  void dissolveGhosts(const BackgroundJob& job);
-  void learnFrame(const BackgroundJob& job);
-  void publish(const BackgroundJob& job, ImageView<uint8_t> out) const;
+  void watch(const MethodJob& job, Foreground& out);
+  SceneEvent followCamera(const MethodJob& job);
+  SceneEvent followLight(const MethodJob& job);
+  bool isElsewhere(const MethodJob& job);
+  void clean(const MethodJob& job);
+  void refine(const MethodJob& job);
+  void findShadow(const MethodJob& job);
+  void dissolveGhosts(const MethodJob& job);
+  void learnFrame(const MethodJob& job);
+  void publish(const MethodJob& job, ImageView<uint8_t> out) const;
 
   SmoothPicture smooth_;
   ConsensusBackground model_;
@@ -64,7 +66,7 @@ class HybridBackground final : public BackgroundMethodModel {
   StillPixels still_;
   BitMask ghosts_;
   StillScratch stillScratch_;
-  MovedScratch moved_;
+  DisplacedScratch moved_;
   CleaningScratch scratch_;
   GapScratch gaps_;
   ContourScratch contour_;
@@ -81,14 +83,14 @@ class HybridBackground final : public BackgroundMethodModel {
   uint32_t elsewhereFrames_ = 0;  ///< The picture has differed everywhere.
 };
 
-void HybridBackground::prepare(const Picture& picture) {
+void ConsensusMethod::prepare(const Picture& picture) {
   const Size size = picture.size();
   for (BitMask* mask : {&previousRaw_, &mask_, &ghosts_, &dark_, &shadow_}) mask->resize(size);
   background::prepare(size, picture.isGrey() ? 1 : 3, model_);
   background::prepare(size, picture.isGrey() ? 1 : 3, still_);
 }
 
-void HybridBackground::start(const BackgroundJob& job, Foreground& out) {
+void ConsensusMethod::start(const MethodJob& job, Foreground& out) {
   fillFrom(smooth_, job.executor, model_);
   previousRaw_.clear();
   clear(still_);
@@ -105,7 +107,7 @@ Tolerance toleranceOf(const Params& params) {
 }
 
 /// In the dark there is nothing to be told from noise, and nothing to be learnt.
-bool HybridBackground::isTooDark(Foreground& out) {
+bool ConsensusMethod::isTooDark(Foreground& out) {
   const bool wasDark = isDark_;
   isDark_ = isDarkerThan(smooth_, wasDark ? kBrightLevel : kDarkLevel);
   if (isDark_ != wasDark) out.scene.event = isDark_ ? SceneEvent::TooDark : SceneEvent::BrightAgain;
@@ -117,7 +119,7 @@ bool HybridBackground::isTooDark(Foreground& out) {
 }
 
 /// A camera that was pushed sees what the model knows beside its place. The picture is put there.
-SceneEvent HybridBackground::followCamera(const BackgroundJob& job) {
+SceneEvent ConsensusMethod::followCamera(const MethodJob& job) {
   const Point before = std::exchange(shift_, findShift(smooth_, model_));
   if (shift_ == Point{}) {
     offFrames_ = 0;
@@ -133,13 +135,13 @@ SceneEvent HybridBackground::followCamera(const BackgroundJob& job) {
 }
 
 /// No light explains it, no object covers it, and it stays.
-bool HybridBackground::isElsewhere(const BackgroundJob& job) {
+bool ConsensusMethod::isElsewhere(const MethodJob& job) {
   elsewhereFrames_ = isEverywhere(verdicts_.raw) ? elsewhereFrames_ + 1 : 0;
   return elsewhereFrames_ >= job.clock.frames(0.3);
 }
 
 /// Much differs from the model: why?
-void HybridBackground::watch(const BackgroundJob& job, Foreground& out) {
+void ConsensusMethod::watch(const MethodJob& job, Foreground& out) {
   const auto pixels = static_cast<uint64_t>(smooth_.size().area());
   SceneEvent& event = out.scene.event;
   if (uint64_t{countSet(verdicts_.raw)} * 256 < pixels * kOddShare) {
@@ -161,7 +163,7 @@ void HybridBackground::watch(const BackgroundJob& job, Foreground& out) {
 
 /// Most of the picture is foreground: is it the known scene in
 /// another light, or another scene?
-SceneEvent HybridBackground::followLight(const BackgroundJob& job) {
+SceneEvent ConsensusMethod::followLight(const MethodJob& job) {
   const auto pixels = static_cast<uint64_t>(smooth_.size().area());
   const uint64_t before = countSet(verdicts_.raw);
   if (before * 256 < pixels * kLightShare) return SceneEvent::None;
@@ -183,7 +185,7 @@ uint32_t leastStrongPx(uint32_t pixels) {
 
 /// Not at the start: what is left of those who were in view must not
 /// stick to those who are, and is told from them by its contour.
-void HybridBackground::refine(const BackgroundJob& job) {
+void ConsensusMethod::refine(const MethodJob& job) {
   const auto pixels = static_cast<uint32_t>(mask_.size().area());
   growFaint({smooth_, model_, verdicts_.faint, shown_}, job.executor, scratch_, contour_, mask_);
   keepSupported(mask_, verdicts_.strong, leastStrongPx(pixels), scratch_);
@@ -192,7 +194,7 @@ void HybridBackground::refine(const BackgroundJob& job) {
   trimBorder(*job.picture, smooth_, model_, toleranceOf(job.params), job.executor, contour_, mask_);
 }
 
-void HybridBackground::clean(const BackgroundJob& job) {
+void ConsensusMethod::clean(const MethodJob& job) {
   const auto pixels = static_cast<uint32_t>(mask_.size().area());
   const int radius = pixels < 40000 ? 1 : pixels < 200000 ? 2 : 3;
   keepMajority(verdicts_.raw, radius, kMajority, job.executor, scratch_, mask_);
@@ -203,7 +205,7 @@ void HybridBackground::clean(const BackgroundJob& job) {
   dropSmallParts(mask_, std::max(8u, pixels / 4000), scratch_);
 }
 
-void HybridBackground::dissolveGhosts(const BackgroundJob& job) {
+void ConsensusMethod::dissolveGhosts(const MethodJob& job) {
   followStill(smooth_, model_, toleranceOf(job.params), mask_, job.executor, still_);
   const auto usual = static_cast<int>(std::clamp<int64_t>(job.clock.frames(0.4), 4, 60000));
   const int leastAge = isFirst(job) ? 4 : usual;
@@ -214,12 +216,12 @@ void HybridBackground::dissolveGhosts(const BackgroundJob& job) {
     if (still_.ages.at(x, y) >= absorbFrames) ghosts_.set(x, y);
   });
   if (frame_.value() % 8 == 0)
-    addMoved(smooth_, model_, mask_, still_, job.clock.frames(3.0), moved_, ghosts_);
+    addDisplaced(smooth_, model_, mask_, still_, job.clock.frames(3.0), moved_, ghosts_);
   replaceWhere(ghosts_, smooth_, job.executor, model_);
   remove(ghosts_, mask_);
 }
 
-void HybridBackground::findShadow(const BackgroundJob& job) {
+void ConsensusMethod::findShadow(const MethodJob& job) {
   if (!job.params.findsShadows) return shadow_.clear();
   paintModelAt(near_, model_, job.executor, shown_);
   const auto planes = [&](const std::array<Image<uint8_t>, 3>& from) {
@@ -232,7 +234,7 @@ void HybridBackground::findShadow(const BackgroundJob& job) {
   keepCastShadows(mask_, shadow_, shadowScratch_);
 }
 
-void HybridBackground::learnFrame(const BackgroundJob& job) {
+void ConsensusMethod::learnFrame(const MethodJob& job) {
   const auto usual =
       std::clamp<int64_t>(job.clock.frames(job.params.learningTimeS) / kSamples, 2, 4096);
   const ConsensusRate rate{frame_.value(), isFirst(job) ? 3 : static_cast<int>(usual),
@@ -243,7 +245,7 @@ void HybridBackground::learnFrame(const BackgroundJob& job) {
   std::swap(verdicts_.raw, previousRaw_);
 }
 
-void HybridBackground::publish(const BackgroundJob& job, ImageView<uint8_t> out) const {
+void ConsensusMethod::publish(const MethodJob& job, ImageView<uint8_t> out) const {
   const int width = out.width(), height = out.height();
   // Where the camera looks off the model, the mask goes back to the
   // picture.
@@ -265,7 +267,7 @@ void HybridBackground::publish(const BackgroundJob& job, ImageView<uint8_t> out)
   });
 }
 
-void HybridBackground::segment(const BackgroundJob& job, Foreground& out) {
+void ConsensusMethod::segment(const MethodJob& job, Foreground& out) {
   out.extent = boundsOf(job.picture->size());
   if (model_.channels == 0) {
     smooth(*job.picture, job.executor, smooth_);
@@ -289,8 +291,8 @@ void HybridBackground::segment(const BackgroundJob& job, Foreground& out) {
 
 }  // namespace
 
-std::unique_ptr<BackgroundMethodModel> makeHybridBackground() {
-  return std::make_unique<HybridBackground>();
+std::unique_ptr<MethodModel> makeConsensusMethod() {
+  return std::make_unique<ConsensusMethod>();
 }
 
 }  // namespace rg::background

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "core/background/ghosts/stopped_parts.hpp"
+#include "core/background/ghosts/outline_ghosts.hpp"
 
 #include "core/base/pixel.hpp"
 
@@ -16,7 +16,7 @@ class OutlineReader {
   OutlineReader(const CellSearch& search, const ColourPlanes& now, const SceneMemory& memory)
       : search_(search), now_(now), memory_(memory), scene_(memory.planes()) {}
 
-  void read(const Run& cells) {
+  void read(const ComponentRun& cells) {
     const Box bounds = boundsOf(now_.green.size);
     const Box box = pixelsOfCells(cells, now_.green.size);
     for (int y = box.y; y < box.bottom(); ++y)
@@ -65,7 +65,7 @@ class OutlineReader {
 bool isGhost(const CellSearch& search, uint32_t part, const ColourPlanes& now,
              const SceneMemory& memory) {
   OutlineReader reader(search, now, memory);
-  for (const Run& run : search.parts().runs)
+  for (const ComponentRun& run : search.parts().runs)
     if (run.component == part) reader.read(run);
   return reader.isGhost();
 }

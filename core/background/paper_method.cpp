@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Section 2.2.1 to the letter; where it leaves a step open, the reading is said beside the step.
-#include "core/background/background_method.hpp"
 #include "core/background/mask_cleaning.hpp"
+#include "core/background/method.hpp"
 #include "core/background/models/frame_difference.hpp"
 #include "core/background/models/gaussian_background.hpp"
 #include "core/background/shadows/shadow.hpp"
@@ -17,16 +17,16 @@ namespace {
 constexpr int kUsualThreshold = 40;  ///< "Pre-determined" in the paper, without a figure.
 constexpr int kLeastEdge = 12;       ///< Grey levels below which a frame difference is noise.
 
-class PaperBackground final : public BackgroundMethodModel {
+class PaperMethod final : public MethodModel {
  public:
   void prepare(const Picture& picture) override;
-  void segment(const BackgroundJob& job, Foreground& out) override;
+  void segment(const MethodJob& job, Foreground& out) override;
   void breakOff() override { previous_.reset(); }
 
  private:
-  void learnFirst(const BackgroundJob& job);
-  void fillAreas(const BackgroundJob& job);
-  void validate(const BackgroundJob& job, ImageView<uint8_t> mask);
+  void learnFirst(const MethodJob& job);
+  void fillAreas(const MethodJob& job);
+  void validate(const MethodJob& job, ImageView<uint8_t> mask);
 
   GaussianBackground model_;
   std::shared_ptr<const Picture> previous_;
@@ -40,7 +40,7 @@ class PaperBackground final : public BackgroundMethodModel {
   std::vector<uint32_t> order_;
 };
 
-void PaperBackground::prepare(const Picture& picture) {
+void PaperMethod::prepare(const Picture& picture) {
   const Size size = picture.size();
   for (Image<uint8_t>* image : {&simple_, &gaussian_, &common_, &edges_, &filled_})
     image->resize(size);
@@ -48,7 +48,7 @@ void PaperBackground::prepare(const Picture& picture) {
   if (model_.channels == 0) startTraining(picture, model_);
 }
 
-void PaperBackground::learnFirst(const BackgroundJob& job) {
+void PaperMethod::learnFirst(const MethodJob& job) {
   train(*job.picture, job.executor, model_);
   if (model_.trainedFrames < std::clamp(job.params.trainingFrames, 1, 65535)) return;
   finishTraining(job.executor, model_);
@@ -57,7 +57,7 @@ void PaperBackground::learnFirst(const BackgroundJob& job) {
 
 /// Edges by frame difference, filled by line segmentation, inside the box of each area. Boxes may
 /// overlap; the largest come first, and no more is looked at than four times the frame.
-void PaperBackground::fillAreas(const BackgroundJob& job) {
+void PaperMethod::fillAreas(const MethodJob& job) {
   filled_.fill(0);
   if (!previous_) return;
   differ(*job.picture, *previous_, job.executor, edges_);
@@ -84,7 +84,7 @@ void PaperBackground::fillAreas(const BackgroundJob& job) {
 }
 
 /// F = (Fc ∨ (fill ∧ (Fs ∨ Fg))) without shadow.
-void PaperBackground::validate(const BackgroundJob& job, ImageView<uint8_t> mask) {
+void PaperMethod::validate(const MethodJob& job, ImageView<uint8_t> mask) {
   const int width = mask.width();
   job.executor.forRows(mask.height(), [&](int first, int last) {
     for (int y = first; y < last; ++y) {
@@ -105,7 +105,7 @@ void PaperBackground::validate(const BackgroundJob& job, ImageView<uint8_t> mask
   paint(shadow_, kShadowPixel, mask);
 }
 
-void PaperBackground::segment(const BackgroundJob& job, Foreground& out) {
+void PaperMethod::segment(const MethodJob& job, Foreground& out) {
   out.extent = boundsOf(job.picture->size());
   if (!isTrained_) {
     out.status = Status::Training;
@@ -133,8 +133,8 @@ void PaperBackground::segment(const BackgroundJob& job, Foreground& out) {
 
 }  // namespace
 
-std::unique_ptr<BackgroundMethodModel> makePaperBackground() {
-  return std::make_unique<PaperBackground>();
+std::unique_ptr<MethodModel> makePaperMethod() {
+  return std::make_unique<PaperMethod>();
 }
 
 }  // namespace rg::background
