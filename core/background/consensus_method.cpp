@@ -206,14 +206,17 @@ void ConsensusMethod::clean(const MethodJob& job) {
 }
 
 void ConsensusMethod::dissolveGhosts(const MethodJob& job) {
-  followStill(smooth_, model_, toleranceOf(job.params), mask_, job.executor, still_);
+  const int64_t absorbFrames = job.clock.frames(job.params.absorbTimeS);
+  const AgeScale scale = AgeScale::upTo(absorbFrames);
+  followStill(smooth_, model_, toleranceOf(job.params), mask_, scale.mostAge(frame_.value()),
+              job.executor, still_);
   const auto usual = static_cast<int>(std::clamp<int64_t>(job.clock.frames(0.4), 4, 60000));
   const int leastAge = isFirst(job) ? 4 : usual;
   findGhosts(smooth_, model_, mask_, still_, leastAge, stillScratch_, ghosts_);
   // What has not changed for so long belongs to the scene.
-  const int64_t absorbFrames = job.clock.frames(job.params.absorbTimeS);
+  const int64_t absorbAge = scale.ageOf(absorbFrames);
   forSetPixels(mask_, 0, mask_.height(), [&](int x, int y) {
-    if (still_.ages.at(x, y) >= absorbFrames) ghosts_.set(x, y);
+    if (still_.ages.at(x, y) >= absorbAge) ghosts_.set(x, y);
   });
   if (frame_.value() % 8 == 0)
     addDisplaced(smooth_, model_, mask_, still_, job.clock.frames(3.0), moved_, ghosts_);

@@ -13,6 +13,7 @@
 #include <cstring>
 #include <malloc.h>
 #include <string>
+#include <utility>
 
 namespace rg::stress {
 namespace {
@@ -26,8 +27,8 @@ constexpr char kChain[] =
 constexpr char kMovingChain[] =
     "hsvsegment threads=1 ! srg threads=1 ! prmmotion threads=1 ! mrfmerge threads=1 ! "
     "regionwrite location=/dev/null contours=true";
-constexpr int kSamples = 200;
-constexpr int kScenes = 20;  // Among ever other ones there is always one that needs most so far.
+constexpr int kSamples = 20;        // Of a round of the scenes.
+constexpr int kMostScenes = 20;     // Among ever other ones one always needs most so far.
 constexpr double kMostSlope = 1.0;  // Bytes in 1000 frames.
 
 struct Options {
@@ -80,22 +81,29 @@ bool run(const Kind& kind, const Options& options) {
   const Caps caps{"I420", options.width, options.height};
   const GstVideoInfo info = caps.info();
   Chain chain(kind.chain, caps);
-  const int every = std::max(1, options.frames / kSamples);
+  // The first fifth is warm-up: two rounds of the scenes. What is in use goes up and down with the
+  // things in view, so a point is the most of a round.
+  const int warmUp = options.frames / 5;
+  const int scenes = std::clamp(warmUp / (2 * kind.lifeFrames), 1, kMostScenes);
+  const int round = scenes * kind.lifeFrames, every = std::max(1, round / kSamples);
   std::vector<std::pair<double, double>> points;
-  points.reserve(2 * kSamples);  // It lies on the heap that it measures.
+  // It lies on the heap that it measures.
+  points.reserve(static_cast<size_t>((options.frames - warmUp) / round) + 1);
+  double most = 0;
   fuzz::MovingScene scene = describe(0, kind.things, kind.noise, kind.pan);
   for (int i = 0; i < options.frames; ++i) {
     if (i % kind.lifeFrames == 0)
-      scene = describe(static_cast<uint32_t>(i / kind.lifeFrames % kScenes), kind.things,
-                       kind.noise, kind.pan);
+      scene = describe(static_cast<uint32_t>(i / kind.lifeFrames % scenes), kind.things, kind.noise,
+                       kind.pan);
     testing::BufferPtr buffer = fuzz::paintScene(scene, info);
     scene.advance();
     GST_BUFFER_PTS(buffer.get()) = static_cast<GstClockTime>(i) * 40 * GST_MSECOND;
     if (!chain.pass(std::move(buffer))) return false;
     while (chain.message(GST_MESSAGE_ANY)) {
     }
-    // The first fifth is warm-up.
-    if (i % every == 0 && 5 * i >= options.frames) points.emplace_back(i, bytesInUse());
+    if (i < warmUp) continue;
+    if (i % every == 0) most = std::max(most, bytesInUse());
+    if ((i - warmUp) % round == round - 1) points.emplace_back(i, std::exchange(most, 0));
   }
   const double slope = 1000 * slopeOf(points);
   const bool isFlat = std::abs(slope) < kMostSlope;

@@ -25,10 +25,10 @@ void fadeFresh(int y, StillPixels& still) {
     fresh[x] = static_cast<uint8_t>(std::max(uint8_t{1}, fresh[x]) - 1);
 }
 
-void followWord(const SmoothPicture& picture, uint64_t foreground, RadiusRow radius, Point at,
-                StillPixels& still) {
+void followWord(const SmoothPicture& picture, uint64_t foreground, uint16_t mostAge,
+                RadiusRow radius, Point at, StillPixels& still) {
   const int begin = at.x * kWordColumns;
-  StillWord word{{}, {}, still.ages.row(at.y) + begin, picture.channels, foreground};
+  StillWord word{{}, {}, still.ages.row(at.y) + begin, mostAge, picture.channels, foreground};
   for (size_t c = 0; c < static_cast<size_t>(picture.channels); ++c) {
     word.pixels[c] = picture.planes[c].row(at.y) + begin;
     word.kept[c] = still.colours[c].row(at.y) + begin;
@@ -133,8 +133,8 @@ void clear(StillPixels& still) {
 }
 
 void followStill(const SmoothPicture& picture, const ConsensusBackground& model,
-                 const Tolerance& tolerance, const BitMask& foreground, const Executor& executor,
-                 StillPixels& still) {
+                 const Tolerance& tolerance, const BitMask& foreground, uint16_t mostAge,
+                 const Executor& executor, StillPixels& still) {
   executor.forRows(picture.size().height, [&](int first, int last) {
     for (int y = first; y < last; ++y) {
       fadeFresh(y, still);
@@ -142,7 +142,7 @@ void followStill(const SmoothPicture& picture, const ConsensusBackground& model,
       uint64_t* aged = still.aged.row(y);
       for (int word = 0; word < still.aged.wordsPerRow(); ++word) {
         const uint64_t now = foreground.row(y)[word];
-        if ((aged[word] | now) != 0) followWord(picture, now, radius, {word, y}, still);
+        if ((aged[word] | now) != 0) followWord(picture, now, mostAge, radius, {word, y}, still);
         aged[word] = now;
       }
     }

@@ -10,16 +10,37 @@
 #include "core/base/memory/executor.hpp"
 #include "core/base/memory/image.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
 
 namespace rg::background {
 
-/// The colour that a foreground pixel keeps and for how many frames it has kept it.
+/// How long something has kept its colour, in 16 bits: up to kFineAges frames one by one, from
+/// there on only every coarseFrames-th frame counts, so that the longest time that is asked for
+/// fits.
+struct AgeScale {
+  static constexpr int64_t kFineAges = 32768, kCoarseAges = 32000;
+  int64_t coarseFrames = 1;
+
+  /// For times of up to so many frames.
+  [[nodiscard]] static constexpr AgeScale upTo(int64_t frames) {
+    return {std::max<int64_t>(1, (frames - kFineAges + kCoarseAges - 1) / kCoarseAges)};
+  }
+  [[nodiscard]] constexpr int64_t ageOf(int64_t frames) const {
+    return frames <= kFineAges ? frames : kFineAges + (frames - kFineAges) / coarseFrames;
+  }
+  /// Up to which age pixels may grow in this frame.
+  [[nodiscard]] constexpr uint16_t mostAge(uint32_t frame) const {
+    return static_cast<uint16_t>(frame % coarseFrames == 0 ? UINT16_MAX : kFineAges);
+  }
+};
+
+/// The colour that a foreground pixel keeps and for how long it has kept it.
 struct StillPixels {
   std::array<Image<uint8_t>, 3> colours;
-  Image<uint16_t> ages;  ///< 0: background, or just changed. Whole words.
+  Image<uint16_t> ages;  ///< AgeScale; 0: background, or just changed. Whole words.
   BitMask aged;          ///< Where ages are not 0.
   Image<uint8_t> fresh;  ///< Frames for which a dissolved ghost's place is no witness; 0: it is.
   std::vector<uint8_t> freshRows;  ///< Of each row: the most frames of its pixels.
@@ -30,10 +51,10 @@ void prepare(Size size, int channels, StillPixels& still);
 void clear(StillPixels& still);
 
 /// Ages pixels of `foreground` whose colour stays within the model's radius, ages the others
-/// backwards.
+/// backwards. No age grows beyond mostAge.
 void followStill(const SmoothPicture& picture, const ConsensusBackground& model,
-                 const Tolerance& tolerance, const BitMask& foreground, const Executor& executor,
-                 StillPixels& still);
+                 const Tolerance& tolerance, const BitMask& foreground, uint16_t mostAge,
+                 const Executor& executor, StillPixels& still);
 
 /// Of one part: edges across its contour, summed over the pixels where they could be read.
 struct ContourSums {

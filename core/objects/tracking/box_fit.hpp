@@ -28,6 +28,9 @@ struct FitTask {
   bool isOfOwnSize = false;        ///< Its size is known from its own history, not from the scene.
   uint16_t track = 0;              ///< As in GroupGrid::expected; 0 = none.
   Box fitted;                      ///< Result.
+
+  /// Of the track that it looks for.
+  [[nodiscard]] size_t trackIndex() const { return track - 1u; }
 };
 
 inline constexpr int kMaxBonus = 2;

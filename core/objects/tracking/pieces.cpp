@@ -72,6 +72,13 @@ void joinRuns(const GroupGrid& e, const std::vector<Run>& runs, std::vector<uint
   }
 }
 
+/// A run is of one group.
+void noteGroup(const GroupGrid& e, const Run& run, Piece& piece) {
+  if (e.motionOf.empty()) return;
+  const uint16_t group = e.group[e.at(run.begin, run.y)];
+  if (piece.group == 0 || e.cellsOf[group - 1u] > e.cellsOf[piece.group - 1u]) piece.group = group;
+}
+
 }  // namespace
 
 void findPieces(const GroupGrid& e, std::span<const uint16_t> owner, PieceScratch& s,
@@ -95,10 +102,7 @@ void findPieces(const GroupGrid& e, std::span<const uint16_t> owner, PieceScratc
     fill(run, s.parent[i] + 1);
     piece.cells += static_cast<uint32_t>(width);
     piece.box = unite(piece.box, {run.begin, run.y, width, 1});
-    if (e.motionOf.empty()) continue;
-    const uint16_t group = e.group[e.at(run.begin, run.y)];
-    if (piece.group == 0 || e.cellsOf[group - 1u] > e.cellsOf[piece.group - 1u])
-      piece.group = group;
+    noteGroup(e, run, piece);
   }
 }
 
@@ -133,6 +137,7 @@ void cutPieces(const GroupGrid& e, PieceScratch& s, std::vector<Piece>& pieces) 
       part.cells += static_cast<uint32_t>(last - first);
       part.box = unite(part.box, {run.begin + static_cast<int>(first), run.y,
                                   static_cast<int>(last - first), 1});
+      noteGroup(e, run, part);
     }
   }
   pieces.swap(s.cut);

@@ -182,8 +182,8 @@ void Tracker::update(const GroupGrid& evidence, std::span<const Group> groups, i
 
 void Tracker::lookForTracks(const GroupGrid& e, int64_t stepNs) {
   tasks_.clear();
-  taskTrack_.clear();
-  std::vector<size_t>& order = taskTrack_;
+  std::vector<size_t>& order = order_;
+  order.clear();
   for (size_t i = 0; i < tracks_.size(); ++i)
     if (tracks_[i].state != ObjectState::Lost || isFaithful(tracks_[i])) order.push_back(i);
   const auto tierOf = [&](const Track& t) {
@@ -225,10 +225,11 @@ void Tracker::lookForTracks(const GroupGrid& e, int64_t stepNs) {
   e.forParts(owner_, [&](const Run& part, uint16_t task) {
     if (task == 0) return;
     std::fill_n(owner_.data() + e.at(part.begin, part.y), part.end - part.begin,
-                static_cast<uint16_t>(taskTrack_[task - 1u] + 1));
+                tasks_[task - 1u].track);
   });
   sightings_.assign(tracks_.size(), {});
-  for (size_t t = 0; t < tasks_.size(); ++t) sightings_[taskTrack_[t]].task = static_cast<int>(t);
+  for (size_t t = 0; t < tasks_.size(); ++t)
+    sightings_[tasks_[t].trackIndex()].task = static_cast<int>(t);
 }
 
 /// What each track owns of its fitted box.

@@ -300,7 +300,7 @@ class Tracker {
 
   std::vector<Sighting> sightings_;  ///< Of tracks_.
   std::vector<FitTask> tasks_;
-  std::vector<size_t> taskTrack_;
+  std::vector<size_t> order_;  ///< Scratch.
   std::vector<uint16_t> owner_;
   FitScratch fitScratch_;
   std::vector<Piece> pieces_;

@@ -40,7 +40,7 @@ void Tracker::findOwnBlobs(const GroupGrid& e) {
   blobCells_.assign(blobs_.size() + 1, 0);
   constexpr uint16_t kSeveral = UINT16_MAX;
   for (size_t t = 0; t < tasks_.size(); ++t) {
-    const size_t track = taskTrack_[t];
+    const size_t track = tasks_[t].trackIndex();
     uint32_t& best = blobOf_[track];
     const Box box = intersect(tasks_[t].fitted, boundsOf(e.grid));
     uint32_t most = 0;
@@ -141,8 +141,9 @@ void Tracker::limitTracks(const GroupGrid& e) {
   limits_.assign(tracks_.size(), boundsOf(e.grid));
   for (size_t t = 0; t < tasks_.size(); ++t) {
     const Box& box = tasks_[t].fitted;
-    if (isSizeKnown(tracks_[taskTrack_[t]]))
-      limits_[taskTrack_[t]] = inflate(box, std::max(2, std::min(box.width, box.height) / 4));
+    if (isSizeKnown(tracks_[tasks_[t].trackIndex()]))
+      limits_[tasks_[t].trackIndex()] =
+          inflate(box, std::max(2, std::min(box.width, box.height) / 4));
   }
 }
 
@@ -201,7 +202,7 @@ void Tracker::giveGroups(const GroupGrid& e, std::span<const Group> groups) {
   };
   findMajorities(groups.size(), majorities_, vote);
   for (size_t t = 0; t < tasks_.size(); ++t) {
-    const auto mine = static_cast<uint16_t>(taskTrack_[t] + 1);
+    const auto mine = tasks_[t].track;
     const Box& fitted = tasks_[t].fitted;
     const int side = std::max(1, fitted.width / 3), above = std::max(1, fitted.height / 6);
     const Box near = intersect(

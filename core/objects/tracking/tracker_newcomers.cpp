@@ -46,7 +46,7 @@ void Tracker::findNewcomers(const GroupGrid& e, const TrackerParams& params) {
   newcomerOf_.assign(pieces_.size(), -1);
   // Large pieces first, so that the limit drops the small ones; specks of a cell or two never
   // count.
-  std::vector<size_t>& order = taskTrack_;
+  std::vector<size_t>& order = order_;
   order.clear();
   for (size_t i = 0; i < pieces_.size(); ++i)
     if (pieces_[i].cells >= 4) order.push_back(i);
@@ -203,7 +203,7 @@ void Tracker::dropSmall(const GroupGrid& e, const TrackerParams& params) {
 
 /// Gives newcomers to the tracks that are missing and look like them; the others begin tracks.
 void Tracker::rejoin(const GroupGrid& e) {
-  std::vector<size_t>& missing = taskTrack_;
+  std::vector<size_t>& missing = order_;
   missing.clear();
   for (size_t i = 0; i < tracks_.size(); ++i)
     if (!tracks_[i].isSeen) missing.push_back(i);

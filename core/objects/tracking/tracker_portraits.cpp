@@ -72,7 +72,7 @@ void Tracker::listPortraits(const GroupGrid& e) {
   if (!e.picture) return;
   isSearched_.assign(tracks_.size() + 1, 0);
   for (size_t t = 0; t < tasks_.size(); ++t) {
-    const size_t i = taskTrack_[t];
+    const size_t i = tasks_[t].trackIndex();
     if (!isFaithful(tracks_[i]) || isClear(i, e)) continue;
     if (portraitTasks_.size() == kMostSearched) break;
     portraitTasks_.push_back({i, t, {}, {}, {}});

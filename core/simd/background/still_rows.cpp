@@ -51,7 +51,7 @@ W differenceOf(const StillWord& word, size_t i) {
 }
 
 void followStillWord(const StillWord& word, const RadiusRow& radius) {
-  const W zero = hn::Zero(kWords), one = hn::Set(kWords, 1);
+  const W zero = hn::Zero(kWords), one = hn::Set(kWords, 1), most = hn::Set(kWords, word.mostAge);
   uint8_t bits[8];
   std::memcpy(bits, &word.foreground, sizeof bits);
   for (size_t i = 0; i < 64; i += hn::Lanes(kWords)) {
@@ -60,7 +60,8 @@ void followStillWord(const StillWord& word, const RadiusRow& radius) {
     const W age = hn::LoadU(kWords, word.ages + i);
     const W younger = hn::SaturatedSub(age, hn::Add(hn::ShiftRight<2>(age), one));
     const auto isOlder = hn::And(hn::Eq(hn::Max(off, reach), reach), hn::Ne(age, zero));
-    const W next = hn::IfThenElse(isOlder, hn::SaturatedAdd(age, one), younger);
+    const W older = hn::Max(age, hn::Min(hn::SaturatedAdd(age, one), most));
+    const W next = hn::IfThenElse(isOlder, older, younger);
     const auto isNew = hn::And(hn::Eq(next, zero), isForeground);
     hn::StoreU(hn::IfThenElseZero(isForeground, hn::Max(next, one)), kWords, word.ages + i);
     const W chosen = hn::IfThenElseZero(isNew, hn::Set(kWords, 255));
@@ -90,8 +91,8 @@ void plain::followStillWord(const StillWord& word, const RadiusRow& radius) {
     for (size_t c = 0; c < static_cast<size_t>(word.channels); ++c)
       off = std::max(off, absDiff(word.pixels[c][x], word.kept[c][x]));
     const bool isSame = off <= radiusAt(radius, word.pixels[0][x], x);
-    const int next =
-        age != 0 && isSame ? std::min(65535, age + 1) : age - std::min(+age, 1 + age / 4);
+    const int next = age != 0 && isSame ? std::max(+age, std::min<int>(age + 1, word.mostAge))
+                                        : age - std::min(+age, 1 + age / 4);
     age = static_cast<uint16_t>(isForeground ? std::max(next, 1) : 0);
     if (!isForeground || next != 0) continue;
     for (size_t c = 0; c < static_cast<size_t>(word.channels); ++c)

@@ -12,11 +12,12 @@
 
 namespace rg::background {
 
-/// 64 columns: their colours now, the colours that they keep, and for how many frames they have.
+/// 64 columns: their colours now, the colours that they keep, and since when (stillAge).
 struct StillWord {
   std::array<const uint8_t*, 3> pixels;
   std::array<uint8_t*, 3> kept;
   uint16_t* ages;
+  uint16_t mostAge;     ///< Ages don't grow beyond; they may be beyond.
   int channels;         ///< 1 or 3.
   uint64_t foreground;  ///< A bit a column.
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/background/background.hpp"
 #include "tests/support/text_picture.hpp"
+#include "tests/support/value_of.hpp"
 
 #include <gtest/gtest.h>
 
@@ -154,6 +155,35 @@ TEST(Background, AStoppedThingStaysForAbsorbTimeThenFades) {
   const Score score = scoreOf(*camera.show(walker(45)), walker(45));
   EXPECT_GE(score.inside, 95);
   EXPECT_LE(score.outside, 130);
+}
+
+// 44 minutes at 25 frames a second are more frames than 16 bits count.
+TEST(Background, AStoppedThingStaysForAnHourIfAsked) {
+  const Size size{32, 24};
+  const auto stage = background::makeStage({std::make_shared<Executor>(1), nullptr});
+  background::Params params;
+  params.absorbTimeS = 3600;
+  const auto paint = [&](bool isThere) {
+    return makePicture(size, [&](int x, int y) {
+      const auto level = static_cast<uint8_t>(90 + x % 5 * 6 + y % 3 * 9);
+      return isThere && x >= 12 && x < 18 && y >= 8 && y < 16 ? Rgb{200, 60, 60}
+                                                              : Rgb{level, level, 80};
+    });
+  };
+  const auto empty = paint(false), there = paint(true);
+  constexpr int kHour = 3600 * 25, kStart = 100;
+  int frame = 0;
+  const auto foregroundAt = [&](int last) {
+    uint32_t pixels = 0;
+    for (; frame <= last; ++frame) {
+      const FrameTime time{int64_t{frame} * 40'000'000, true};
+      const auto picture = frame < kStart ? empty : there;
+      pixels = valueOf(stage->process(picture, params, time))->scene.foregroundPx;
+    }
+    return pixels;
+  };
+  EXPECT_GE(foregroundAt(kStart + kHour - 1000), 30u);
+  EXPECT_EQ(foregroundAt(kStart + kHour + 1000), 0u);
 }
 
 TEST(Background, ALightSwitchIsFollowedAndReported) {

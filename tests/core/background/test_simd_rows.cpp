@@ -216,17 +216,18 @@ struct Stillness {
   explicit Stillness(const Scene& scene)
       : kept(filled(3, [](int x, int row) { return static_cast<uint8_t>(x * 5 + row); })),
         ages({padded(kMostColumns), 1}) {
-    constexpr std::array<uint16_t, 8> kAges{0, 1, 2, 3, 5, 300, 65534, 65535};
+    constexpr std::array<uint16_t, 8> kAges{0, 1, 2, 32767, 32768, 32769, 65534, 65535};
     for (int x = 0; x < ages.width(); ++x) ages.at(x, 0) = kAges[static_cast<size_t>(x % 8)];
     for (int c = 0; c < 3; ++c)  // Half of the columns keep nearly the colour that they have.
       for (int x = 0; x < kMostColumns; ++x)
         if (x / 3 % 2 == 0) kept.at(x, c) = static_cast<uint8_t>(scene.pixels.at(x, c) ^ (x & 7));
   }
-  background::StillWord word(const Scene& scene, int at, uint64_t foreground) {
+  background::StillWord word(const Scene& scene, int at, uint16_t mostAge, uint64_t foreground) {
     const int x = 64 * at;
     return {{scene.pixels.row(0) + x, scene.pixels.row(1) + x, scene.pixels.row(2) + x},
             {kept.row(0) + x, kept.row(1) + x, kept.row(2) + x},
             ages.row(0) + x,
+            mostAge,
             scene.row.channels,
             foreground};
   }
@@ -245,11 +246,13 @@ TEST(SimdRows, StillPixelsAreThePlainOnes) {
         for (int frame = 0; frame < 4; ++frame)
           for (int at = 0; at < kMostColumns / 64; ++at) {
             const uint64_t foreground = random() | random();
+            const uint16_t mostAge = frame % 2 == 0 ? 32768 : UINT16_MAX;
             background::RadiusRow radius = scene.radius(frame * 40, 30 * frame);
             radius.noise += 64 * at;
             radius.unrest += 64 * at;
-            background::plain::followStillWord(expected.word(scene, at, foreground), radius);
-            background::simd::followStillWord(out.word(scene, at, foreground), radius);
+            background::plain::followStillWord(expected.word(scene, at, mostAge, foreground),
+                                               radius);
+            background::simd::followStillWord(out.word(scene, at, mostAge, foreground), radius);
           }
         for (int x = 0; x < out.ages.width(); ++x)
           ASSERT_EQ(out.ages.at(x, 0), expected.ages.at(x, 0)) << "column " << x;

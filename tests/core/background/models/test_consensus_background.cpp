@@ -265,7 +265,7 @@ uint32_t ghostPixels(bool inModel, bool inPicture, int age) {
   background::prepare({24, 24}, 1, still);
   background::clear(still);
   for (int i = 0; i < age; ++i)
-    background::followStill(picture, model, {10, 0}, mask, Executor(1), still);
+    background::followStill(picture, model, {10, 0}, mask, UINT16_MAX, Executor(1), still);
   background::StillScratch scratch;
   return background::findGhosts(picture, model, mask, still, 10, scratch, ghosts);
 }
@@ -293,7 +293,7 @@ TEST(StillParts, AChangeOfColourMakesYoung) {
   auto model = started(flat(size, 0));
   model.noise.fill(0);
   const auto age = [&](int level) {
-    background::followStill(flat(size, level), model, {10, 0}, mask, Executor(1), still);
+    background::followStill(flat(size, level), model, {10, 0}, mask, UINT16_MAX, Executor(1), still);
     return int{still.ages.at(0, 0)};
   };
   EXPECT_EQ(age(100), 1);

@@ -94,6 +94,23 @@ TEST(Pieces, TwoThingsThatTouchAreCutAtTheJoint) {
               ElementsAre("11...33.2", "11...33.2", "1133333.2", "11...33.2"));
 }
 
+TEST(Pieces, WhatIsCutKnowsItsGroup) {
+  objects::GroupGrid e = drawn({"##...##.#", "##...##.#", "#######.#", "##...##.#"});
+  for (int y = 0; y < e.grid.height; ++y)
+    for (int x = 0; x < e.grid.width; ++x)
+      if (uint16_t& group = e.group[e.at(x, y)]; group != 0) group = x < 2 ? 1 : x < 8 ? 2 : 3;
+  e.listRuns();
+  e.cellsOf = {8, 11, 4};
+  e.motionOf = {{0, 0}, {0, 0}, {0, 0}};
+  objects::PieceScratch scratch;
+  std::vector<objects::Piece> pieces;
+  objects::findPieces(e, {}, scratch, pieces);
+  objects::cutPieces(e, scratch, pieces);
+  std::vector<int> groups;
+  for (const objects::Piece& piece : pieces) groups.push_back(piece.group);
+  EXPECT_THAT(groups, ElementsAre(1, 3, 2));
+}
+
 TEST(Pieces, ABodyIsNotCutFromItsLegsAndArms) {
   const std::vector<std::string> body = {"...##...", "..####..", ".######.",
                                          "...##...", "..####..", ".##..##."};
