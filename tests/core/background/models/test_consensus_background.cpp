@@ -293,7 +293,8 @@ TEST(StillParts, AChangeOfColourMakesYoung) {
   auto model = started(flat(size, 0));
   model.noise.fill(0);
   const auto age = [&](int level) {
-    background::followStill(flat(size, level), model, {10, 0}, mask, UINT16_MAX, Executor(1), still);
+    background::followStill(flat(size, level), model, {10, 0}, mask, UINT16_MAX, Executor(1),
+                            still);
     return int{still.ages.at(0, 0)};
   };
   EXPECT_EQ(age(100), 1);
