@@ -182,19 +182,18 @@ void Tracker::update(const GroupGrid& evidence, std::span<const Group> groups, i
 
 void Tracker::lookForTracks(const GroupGrid& e, int64_t stepNs) {
   tasks_.clear();
-  std::vector<size_t>& order = order_;
-  order.clear();
+  order_.clear();
   for (size_t i = 0; i < tracks_.size(); ++i)
-    if (tracks_[i].state != ObjectState::Lost || isFaithful(tracks_[i])) order.push_back(i);
+    if (tracks_[i].state != ObjectState::Lost || isFaithful(tracks_[i])) order_.push_back(i);
   const auto tierOf = [&](const Track& t) {
     return t.unseenNs > 0 ? 2 : t.isConfirmed && isSizeKnown(t) ? 0 : 1;
   };
-  std::sort(order.begin(), order.end(), [&](size_t a, size_t b) {
+  std::sort(order_.begin(), order_.end(), [&](size_t a, size_t b) {
     const Track &p = tracks_[a], &q = tracks_[b];
     return std::tuple(tierOf(p), -p.foot, p.id) < std::tuple(tierOf(q), -q.foot, q.id);
   });
   const int cell = e.stepPx * kUnit;
-  for (const size_t i : order) {
+  for (const size_t i : order_) {
     const Track& track = tracks_[i];
     FitTask task;
     task.track = static_cast<uint16_t>(i + 1);
