@@ -237,6 +237,7 @@ Result<std::shared_ptr<const Graph>> CpuGraph::process(
     for (const BandSums& sums : bands_) sums.arcs.appendTo(graph->arcs);
     sorter_.sortAndJoin(graph->arcs, labels->count);
   }
+  graph->picture = labels->picture;
   graph->labels = std::move(labels);
   return std::shared_ptr<const Graph>(graph);
 }

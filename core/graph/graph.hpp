@@ -5,6 +5,7 @@
 #pragma once
 
 #include "core/base/geometry.hpp"
+#include "core/base/picture.hpp"
 #include "core/base/pixel.hpp"
 #include "core/base/result.hpp"
 #include "core/base/stage.hpp"
@@ -58,12 +59,16 @@ struct Arc {
 struct Graph {
   Size size;
   Status status = Status::Skipped;
+  std::shared_ptr<const Picture> picture;  ///< That the regions are of.
   std::shared_ptr<const segmentation::Labels> labels;
   std::vector<Region> regions;
   std::vector<Arc> arcs;
   RegionRuns runs;  ///< Of the regions' pixels.
 
-  void dropSources() { labels.reset(); }
+  void dropSources() {
+    picture.reset();
+    labels.reset();
+  }
 };
 
 struct Params {

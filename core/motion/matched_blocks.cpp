@@ -96,7 +96,7 @@ void MatchedBlocks::collect(const graph::Graph& graph, Chunk& chunk) {
       for (const Run& run : runs) addHalves(run, label, open, chunk);
       closeStrip(chunk);
     }
-    keepEnough(graph.labels->picture->luma(), chunk, begin);
+    keepEnough(graph.picture->luma(), chunk, begin);
     pixels_[region] = countPixels(std::span(chunk.parts).subspan(begin));
     starts_[region] = static_cast<uint32_t>(chunk.parts.size() - begin);
   }

@@ -67,7 +67,7 @@ Result<std::shared_ptr<const Motion>> CpuMotion::process(std::shared_ptr<const g
   motion->regions.assign(graph->regions.size(), {});
   motion->matchedBlocks = motion->stillBlocks = 0;
   if (graph->status != Status::Skipped) {
-    std::shared_ptr<const Picture> picture = graph->labels->picture;
+    std::shared_ptr<const Picture> picture = graph->picture;
     if (previous_ && previous_->size() == picture->size()) {
       match(*graph, params, *motion);
       motion->status = graph->status;
@@ -92,12 +92,12 @@ void CpuMotion::match(const graph::Graph& graph, const Params& params, Motion& m
     const auto i = static_cast<size_t>(index);
     const auto parts = blocks_.partsOf(static_cast<uint32_t>(index) + 1);
     if (parts.empty()) return;
-    isStill_[i] = isUnchanged(parts, labels.picture->luma(), previous_->luma());
+    isStill_[i] = isUnchanged(parts, graph.picture->luma(), previous_->luma());
     // Where nothing changed no shift is better than none, and of the others only the nearest count.
     const ShiftRange range =
         isStill_[i] != 0 ? ShiftRange{0, 1} : ShiftRange{maxShift, maxShift + 1};
     motion.regions[i] =
-        matchRegion(parts, *labels.picture, range, scratch_[static_cast<size_t>(thread)]);
+        matchRegion(parts, *graph.picture, range, scratch_[static_cast<size_t>(thread)]);
   });
   for (const MatchedPart& part : blocks_.parts()) {
     motion.matchedBlocks += part.pixels() / kBlockWidth;

@@ -27,9 +27,10 @@ int64_t squaredDistance(Point a, Point b) {
   return dx * dx + dy * dy;
 }
 
-/// What is left of a reliability: little where the pixels don't fit, where the neighbours expect
-/// another vector, if only so far: neighbours of another object do so rightly. None where more than
-/// a quarter of the region has no match inside the previous frame.
+/// A reliability, now that the pixels have been fitted: up to kGain times as much where they fit,
+/// little where they don't, less where the neighbours expect another vector, if only so far:
+/// neighbours of another object do so rightly. None where more than a quarter of the region has no
+/// match inside the previous frame.
 int judge(int reliability, const FitRegion& region, const MotionFit& fit,
           const MotionPrior& prior) {
   constexpr int64_t kMisfit = kFine * 3 / 2, kGain = 4;
@@ -78,7 +79,7 @@ void MotionRefinement::run(const graph::Graph& graph, const MatchedBlocks& block
   graph_ = &graph;
   blocks_ = &blocks;
   smooth(before, previous.reach(), executor);
-  planes_ = {FitPlane{graph.labels->picture->luma(), &previous},
+  planes_ = {FitPlane{graph.picture->luma(), &previous},
              FitPlane{smoothCurrent_.inside(), &smoothPrevious_}};
   alone_.resize(motion.size());
   own_.resize(motion.size());
@@ -109,7 +110,7 @@ void MotionRefinement::smooth(const Picture& before, int reach, const Executor& 
   std::swap(smoothCurrent_, smoothPrevious_);
   if (smoothOf_.get() != &before || smoothPrevious_.reach() != reach)
     smoothPrevious_.buildSmooth(before.luma(), reach, executor);
-  smoothOf_ = graph_->labels->picture;
+  smoothOf_ = graph_->picture;
   smoothCurrent_.buildSmooth(smoothOf_->luma(), reach, executor);
 }
 

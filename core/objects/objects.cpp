@@ -45,22 +45,21 @@ class CpuObjectStage final : public Stage {
  public:
   explicit CpuObjectStage(Context context) : context_(std::move(context)) {}
 
-  Result<std::shared_ptr<const Objects>> process(std::shared_ptr<const motion::Motion> motion,
-                                                 const Params& params, FrameTime time) override;
+  Result<std::shared_ptr<const Objects>> process(Input in, const Params& params,
+                                                 FrameTime time) override;
   void reset(Reset what) override;
   [[nodiscard]] TrackerLegacy bequeath() noexcept { return tracker_.bequeath(); }
   void inherit(TrackerLegacy&& legacy) noexcept { tracker_.inherit(std::move(legacy)); }
 
  private:
-  void mergeRegions(const motion::Motion& motion, const Params& params, int64_t stepNs,
-                    Objects& objects);
+  void mergeRegions(const Input& in, const Params& params, int64_t stepNs, Objects& objects);
   void expectLabels(const graph::Graph& graph, int64_t stepNs, Objects& objects);
   void startGroups(std::vector<uint32_t>& groupOf) const;
   void recallStanding(const graph::Graph& graph, Objects& objects);
   void tieToGround(const graph::Graph& graph, const MergeWeights& weights,
                    std::vector<GroundEnergy>& energies);
-  void markSurroundings(const graph::Graph& graph, const Objects& objects);
-  void markBackground(const graph::Graph& graph, const Objects& objects);
+  void markSurroundings(const Input& in, const Objects& objects);
+  void markBackground(const Input& in, const Objects& objects);
   void gatherEvidence(const graph::Graph& graph, const Objects& objects);
   void markKnown(const graph::Graph& graph, const Objects& objects);
   void givePixels(const graph::Graph& graph, Objects& objects);
@@ -142,12 +141,13 @@ void CpuObjectStage::startGroups(std::vector<uint32_t>& groupOf) const {
     groupOf[r] = expected_[r] != 0 ? expected_[r] : tracks + 1 + r;
 }
 
-void CpuObjectStage::mergeRegions(const motion::Motion& motion, const Params& params,
-                                  int64_t stepNs, Objects& objects) {
+void CpuObjectStage::mergeRegions(const Input& in, const Params& params, int64_t stepNs,
+                                  Objects& objects) {
+  const motion::Motion& motion = *in.motion;
   const graph::Graph& graph = *motion.graph;
   const MergeWeights weights = weightsOf(params);
   std::vector<uint32_t>& groupOf = objects.regionGroup;
-  const std::shared_ptr<const Picture> previous = std::exchange(previous_, graph.labels->picture);
+  const std::shared_ptr<const Picture> previous = std::exchange(previous_, graph.picture);
   const bool isMoving =
       graph.labels->scope == segmentation::Scope::Frame && motion.status != Status::Skipped;
   const motion::RegionMotion camera =
@@ -180,7 +180,7 @@ void CpuObjectStage::mergeRegions(const motion::Motion& motion, const Params& pa
   }
   objects.isCutShort = mergeScratch_.isCutShort;
   describeGroups(shown, groupOf, groups_);
-  markBackground(graph, objects);
+  markBackground(in, objects);
 }
 
 void CpuObjectStage::tieToGround(const graph::Graph& graph, const MergeWeights& weights,
@@ -212,14 +212,14 @@ void CpuObjectStage::recallStanding(const graph::Graph& graph, Objects& objects)
 
 /// Under Scope::Areas regions of the background lie round the things: a group of which most pixels
 /// are not foreground. A sixteenth of the pixels tells it.
-void CpuObjectStage::markSurroundings(const graph::Graph& graph, const Objects& objects) {
+void CpuObjectStage::markSurroundings(const Input& in, const Objects& objects) {
   constexpr int kStep = 4;
-  const segmentation::Labels& labels = *graph.labels;
-  if (!labels.foreground || labels.foreground->mask.size() != graph.size) return;
+  const graph::Graph& graph = *in.motion->graph;
+  if (!in.foreground || in.foreground->mask.size() != graph.size) return;
   majority_.assign(groups_.size(), 0);
   for (int y = 0; y < graph.size.height; y += kStep) {
-    const uint16_t* ids = labels.ids.row(y);
-    const uint8_t* mask = labels.foreground->mask.row(y);
+    const uint16_t* ids = graph.labels->ids.row(y);
+    const uint8_t* mask = in.foreground->mask.row(y);
     for (int x = 0; x < graph.size.width; x += kStep)
       if (ids[x] != segmentation::kNoRegion)
         majority_[objects.regionGroup[ids[x] - 1u]] +=
@@ -229,9 +229,10 @@ void CpuObjectStage::markSurroundings(const graph::Graph& graph, const Objects& 
 }
 
 /// Under Scope::Frame the ground's group is the background.
-void CpuObjectStage::markBackground(const graph::Graph& graph, const Objects& objects) {
+void CpuObjectStage::markBackground(const Input& in, const Objects& objects) {
   isBackground_.assign(groups_.size(), 0);
-  if (graph.labels->scope == segmentation::Scope::Areas) return markSurroundings(graph, objects);
+  if (in.motion->graph->labels->scope == segmentation::Scope::Areas)
+    return markSurroundings(in, objects);
   if (objects.groundGroup != Objects::kNoGroup) isBackground_[objects.groundGroup] = 1;
 }
 
@@ -322,8 +323,9 @@ void CpuObjectStage::markKnown(const graph::Graph& graph, const Objects& objects
   }
 }
 
-Result<std::shared_ptr<const Objects>> CpuObjectStage::process(
-    std::shared_ptr<const motion::Motion> motion, const Params& params, FrameTime time) {
+Result<std::shared_ptr<const Objects>> CpuObjectStage::process(Input in, const Params& params,
+                                                               FrameTime time) {
+  const std::shared_ptr<const motion::Motion>& motion = in.motion;
   const std::shared_ptr<Objects> objects = pool_.take();
   objects->size = motion->size;
   objects->events.clear();
@@ -353,19 +355,23 @@ Result<std::shared_ptr<const Objects>> CpuObjectStage::process(
     tracker_.takeEvents(false, objects->events);
     return std::shared_ptr<const Objects>(objects);
   }
-  mergeRegions(*motion, params, stepNs, *objects);
+  mergeRegions(in, params, stepNs, *objects);
   gatherEvidence(*graph, *objects);
   tracker_.update(evidence_, groups_, stepNs, tracking);
   givePixels(*graph, *objects);
   describe(*graph, time.isKnown, *objects);
   nameRegions(*graph, *objects);
-  const background::Foreground* foreground = graph->labels->foreground.get();
-  tracker_.takeEvents(foreground && background::isAnotherView(foreground->scene.event),
+  tracker_.takeEvents(in.foreground && background::isAnotherView(in.foreground->scene.event),
                       objects->events);
   return std::shared_ptr<const Objects>(objects);
 }
 
 }  // namespace
+
+Input::Input(std::shared_ptr<const motion::Motion> found) : motion(std::move(found)) {
+  if (motion && motion->graph && motion->graph->labels)
+    foreground = motion->graph->labels->foreground;
+}
 
 std::unique_ptr<Stage> makeStage(Context context) {
   return std::make_unique<RenewedStage<Stage, CpuObjectStage>>(std::move(context));

@@ -33,11 +33,23 @@ struct Params {
   double minObjectArea = 0.0;      ///< Share of the frame, in percent; 0 = learnt from the scene.
 };
 
+/// What mrfmerge looks at in one frame.
+struct Input {
+  std::shared_ptr<const motion::Motion> motion;
+  std::shared_ptr<const background::Foreground> foreground;  ///< That the regions lie in; may be
+                                                             ///< null.
+
+  Input() = default;
+  /// The foreground that the motion's regions were found in.
+  Input(std::shared_ptr<const motion::Motion> found);  // NOLINT(google-explicit-constructor)
+};
+
 class Stage {
  public:
   virtual ~Stage() = default;
-  [[nodiscard]] virtual Result<std::shared_ptr<const Objects>> process(
-      std::shared_ptr<const motion::Motion> motion, const Params& params, FrameTime time) = 0;
+  [[nodiscard]] virtual Result<std::shared_ptr<const Objects>> process(Input in,
+                                                                       const Params& params,
+                                                                       FrameTime time) = 0;
   /// Ends of tracks that this causes are told by the next frame's events.
   virtual void reset(Reset what) = 0;
 };

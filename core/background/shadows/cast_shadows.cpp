@@ -4,7 +4,7 @@
 namespace rg::background {
 namespace {
 
-constexpr uint32_t kMostDarkShare = 192;  ///< Of 256: an object darker than that casts no shadow.
+constexpr uint32_t kMostDarkShare = 192;  ///< Of 256: an object of which more is dark has none.
 
 /// Is (x, y) inside the picture and foreground that is not darkened?
 bool isSolid(const BitMask& mask, const BitMask& dark, int x, int y) {

@@ -86,7 +86,7 @@ class Comparison {
   Comparison(const motion::Motion& motion, const motion::RegionMotion& camera, size_t region,
              const OwnMotionScratch& s)
       : graph_(*motion.graph),
-        luma_(graph_.labels->picture->luma()),
+        luma_(graph_.picture->luma()),
         s_(s),
         region_(region),
         shift_(s.trials[region].shift),

@@ -74,7 +74,7 @@ void gather(const graph::Graph& graph, std::span<const uint32_t> groupOf,
   e.bin.assign(cells, kUnknownBin);
   e.expected.resize(cells);
   e.cellsOf.assign(isBackground.size(), 0);
-  const Picture* picture = e.picture = graph.labels->picture.get();
+  const Picture* picture = e.picture = graph.picture.get();
   for (size_t region = 0; region < groupOf.size(); ++region) {
     const uint32_t group = groupOf[region];
     if (isBackground[group]) continue;

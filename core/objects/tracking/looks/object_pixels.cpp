@@ -73,7 +73,7 @@ void findObjectPixels(const graph::Graph& graph, std::span<const uint8_t> isBack
   s.extents.assign(static_cast<size_t>(graph.size.height), {graph.size.width, 0});
   for (size_t region = 0; region < graph.regions.size(); ++region)
     if (isBackground[region] == 0) fillSlots(graph.runs.of(region), cells.grid, s, slots);
-  const Picture* picture = graph.labels->picture.get();
+  const Picture* picture = graph.picture.get();
   for (int y = 0; y < graph.size.height; ++y) {
     const uint16_t* row = slots.row(y);
     const ObjectPixelScratch::Extent extent = s.extents[static_cast<size_t>(y)];
