@@ -12,7 +12,7 @@
 
 namespace rg::background {
 
-/// 64 columns: their colours now, the colours that they keep, and since when (stillAge).
+/// 64 columns: their colours now, the colours that they keep, and how long (ghosts.hpp: AgeScale).
 struct StillWord {
   std::array<const uint8_t*, 3> pixels;
   std::array<uint8_t*, 3> kept;
