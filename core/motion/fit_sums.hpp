@@ -8,7 +8,8 @@
 // Determinism: integers; the previous picture is sampled at 1/256 px, rounded down.
 #pragma once
 
-#include "core/motion/matched_blocks.hpp"
+#include "core/base/geometry.hpp"
+#include "core/motion/matched_part.hpp"
 #include "core/motion/padded_luma.hpp"
 
 #include <cstdint>
@@ -67,6 +68,12 @@ inline constexpr int kMostLimit = 127 * kFine;
 /// Sums of products of gradients over all pixels that have one.
 struct GradientProducts {
   int64_t xx = 0, xy = 0, yy = 0;
+  GradientProducts& operator+=(const GradientProducts& other) {
+    xx += other.xx;
+    xy += other.xy;
+    yy += other.yy;
+    return *this;
+  }
   friend bool operator==(const GradientProducts&, const GradientProducts&) = default;
 };
 [[nodiscard]] GradientProducts sumGradients(std::span<const MatchedPart> parts,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/motion/matched_blocks.hpp"
 
-#include "core/motion/textured_cells.hpp"
+#include "core/base/bit_mask.hpp"
 #include "core/simd/base/run_rows.hpp"
 
 #include <algorithm>
@@ -12,6 +12,7 @@ namespace {
 
 constexpr size_t kMostChunks = 64;
 constexpr uint64_t kBlockBits = 0x1111111111111111;
+constexpr uint64_t kPartBits = (uint64_t{1} << kPartWidth) - 1;
 
 uint32_t countPixels(std::span<const MatchedPart> parts) {
   uint32_t pixels = 0;
@@ -32,6 +33,7 @@ void MatchedBlocks::find(const graph::Graph& graph, const Executor& executor) {
   cutChunks(graph.runs);
   starts_.assign(graph.regions.size() + 1, 0);
   pixels_.resize(graph.regions.size());
+  gradients_.resize(graph.regions.size());
   executor.forEach(static_cast<int>(chunks_.size()),
                    [&](int i) { collect(graph, chunks_[static_cast<size_t>(i)]); });
   dropSmallest();
@@ -96,21 +98,23 @@ void MatchedBlocks::collect(const graph::Graph& graph, Chunk& chunk) {
       for (const Run& run : runs) addHalves(run, label, open, chunk);
       closeStrip(chunk);
     }
-    keepEnough(graph.picture->luma(), chunk, begin);
+    gradients_[region] = keepEnough(graph.picture->luma(), chunk, begin);
     pixels_[region] = countPixels(std::span(chunk.parts).subspan(begin));
     starts_[region] = static_cast<uint32_t>(chunk.parts.size() - begin);
   }
 }
 
-/// Of the region whose parts begin there.
-void MatchedBlocks::keepEnough(ImageView<const uint8_t> luma, Chunk& chunk, size_t begin) {
+/// Of the region whose parts begin there. Returns the sums over what is left.
+GradientProducts MatchedBlocks::keepEnough(ImageView<const uint8_t> luma, Chunk& chunk,
+                                           size_t begin) {
   const std::span<MatchedPart> parts = std::span(chunk.parts).subspan(begin);
-  if (countPixels(parts) <= kEnoughPx) return;
-  keepTextured(luma, parts, chunk.ranks);
+  if (countPixels(parts) <= kEnoughPx) return sumGradients(parts, luma);
+  const GradientProducts gradients = keepTextured(luma, parts, chunk.texture);
   const auto left = std::remove_if(parts.begin(), parts.end(),
                                    [](const MatchedPart& part) { return part.blocks == 0; });
   chunk.parts.resize(begin + static_cast<size_t>(left - parts.begin()));
   chunk.stripFirst = chunk.parts.size();
+  return gradients;
 }
 
 void MatchedBlocks::addInner(const Run& run, uint16_t label, Chunk& chunk) const {
@@ -119,11 +123,17 @@ void MatchedBlocks::addInner(const Run& run, uint16_t label, Chunk& chunk) const
   const int first = (begin + kBlockWidth - 1) / kBlockWidth * kBlockWidth;
   const int last = end / kBlockWidth * kBlockWidth;
   const uint64_t* steady = steady_.row(run.y);
-  for (int x = first / kPartWidth * kPartWidth; x < last; x += kPartWidth) {
-    const uint64_t bits = steady[x / 64] >> (x % 64);
-    const uint64_t left = x >= first ? bits & 1 : 0;
-    const uint64_t right = x + kBlockWidth < last ? bits >> kBlockWidth & 1 : 0;
-    if ((left | right) != 0) add(run, x / kPartWidth, left | right << 1, label, chunk);
+  for (int word = first / kWordColumns; word * kWordColumns < last; ++word) {
+    const int x = word * kWordColumns;
+    uint64_t bits = steady[word];
+    if (x < first) bits &= ~uint64_t{0} << (first - x);
+    if (last - x < kWordColumns) bits &= ~(~uint64_t{0} << (last - x));
+    while (bits != 0) {
+      const int column = std::countr_zero(bits) / kPartWidth;
+      const uint64_t halves = bits >> (column * kPartWidth);
+      add(run, x / kPartWidth + column, (halves | halves >> (kBlockWidth - 1)) & 3, label, chunk);
+      bits &= ~(kPartBits << (column * kPartWidth));
+    }
   }
 }
 

@@ -15,9 +15,11 @@
 #include "core/base/memory/executor.hpp"
 #include "core/base/memory/image.hpp"
 #include "core/graph/graph.hpp"
+#include "core/motion/fit_sums.hpp"
+#include "core/motion/matched_part.hpp"
+#include "core/motion/textured_cells.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -25,7 +27,6 @@
 
 namespace rg::motion {
 
-inline constexpr int kBlockWidth = 4;  ///< Blocks start at its multiples, one row high.
 /// A block is inner when its pixels and so many to the left, right, top and bottom of each, as far
 /// as the frame goes, have one label.
 inline constexpr int kBorderReach = 3;
@@ -38,32 +39,6 @@ inline constexpr uint32_t kLeastInnerPx = 16;
   return static_cast<size_t>(std::max<int64_t>(1024, frame.area() / 256));
 }
 
-inline constexpr int kPartWidth = 2 * kBlockWidth;
-inline constexpr int kPartHeight = 32;
-
-/// The matched blocks of one region in one tile of kPartWidth x kPartHeight pixels.
-struct MatchedPart {
-  uint64_t blocks = 0;  ///< Bit 2 row + half: the left or right block of a row of the tile.
-  uint16_t column = 0;  ///< In tiles.
-  uint16_t strip = 0;   ///< In tiles.
-  uint16_t label = 0;
-
-  [[nodiscard]] int x() const { return column * kPartWidth; }
-  [[nodiscard]] int y() const { return strip * kPartHeight; }
-  [[nodiscard]] uint32_t pixels() const {
-    return static_cast<uint32_t>(std::popcount(blocks)) * kBlockWidth;
-  }
-};
-
-/// Calls visit(x, y) for the first pixel of each block, by rows.
-template <class Visit>
-void forBlocks(const MatchedPart& part, Visit&& visit) {
-  for (uint64_t left = part.blocks; left != 0; left &= left - 1) {
-    const int bit = std::countr_zero(left);
-    visit(part.x() + bit % 2 * kBlockWidth, part.y() + bit / 2);
-  }
-}
-
 class MatchedBlocks {
  public:
   void find(const graph::Graph& graph, const Executor& executor);
@@ -71,6 +46,11 @@ class MatchedBlocks {
   [[nodiscard]] std::span<const MatchedPart> parts() const { return parts_; }
   [[nodiscard]] std::span<const MatchedPart> partsOf(uint32_t label) const {
     return parts().subspan(starts_[label - 1], starts_[label] - starts_[label - 1]);
+  }
+  [[nodiscard]] uint32_t pixelsOf(uint32_t label) const { return pixels_[label - 1]; }
+  /// Over the parts of a region that has some.
+  [[nodiscard]] const GradientProducts& gradientsOf(uint32_t label) const {
+    return gradients_[label - 1];
   }
 
  private:
@@ -80,7 +60,7 @@ class MatchedBlocks {
     std::vector<MatchedPart> parts;
     std::vector<uint32_t> places;  ///< Of the strip's part in each column of tiles.
     size_t stripFirst = 0;         ///< Where the parts of the region and strip begin.
-    std::vector<uint64_t> ranks;   ///< Of a region's cells.
+    TextureScratch texture;
   };
 
   void findSteady(ImageView<const uint16_t> labels, const Executor& executor);
@@ -90,7 +70,7 @@ class MatchedBlocks {
   void addHalves(const Run& run, uint16_t label, std::pair<int, int>& open, Chunk& chunk) const;
   static void add(const Run& run, int column, uint64_t halves, uint16_t label, Chunk& chunk);
   static void closeStrip(Chunk& chunk);
-  static void keepEnough(ImageView<const uint8_t> luma, Chunk& chunk, size_t begin);
+  static GradientProducts keepEnough(ImageView<const uint8_t> luma, Chunk& chunk, size_t begin);
   void dropSmallest();
   void joinChunks(size_t labelCount, const Executor& executor);
 
@@ -101,6 +81,7 @@ class MatchedBlocks {
   std::vector<Chunk> chunks_;
   std::vector<uint32_t> starts_;  ///< By label: where its parts begin.
   std::vector<uint32_t> pixels_;  ///< Of each region, matched.
+  std::vector<GradientProducts> gradients_;
   std::vector<uint64_t> ranks_;
   std::vector<MatchedPart> parts_;
 };

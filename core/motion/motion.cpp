@@ -3,7 +3,6 @@
 
 #include "core/base/memory/pool.hpp"
 #include "core/base/renewed_stage.hpp"
-#include "core/motion/fit_sums.hpp"
 #include "core/motion/matched_blocks.hpp"
 #include "core/motion/motion_estimate.hpp"
 #include "core/motion/motion_refinement.hpp"
@@ -16,13 +15,6 @@
 
 namespace rg::motion {
 namespace {
-
-GradientSums gradientsOf(std::span<const MatchedPart> parts, ImageView<const uint8_t> luma) {
-  const GradientProducts sums = sumGradients(parts, luma);
-  GradientSums gradients{sums.xx, sums.xy, sums.yy, 0};
-  for (const MatchedPart& part : parts) gradients.pixels += part.pixels();
-  return gradients;
-}
 
 bool isUnchanged(std::span<const MatchedPart> parts, ImageView<const uint8_t> luma,
                  ImageView<const uint8_t> previous) {
@@ -45,13 +37,10 @@ class CpuMotion : public Stage {
 
  private:
   void match(const graph::Graph& graph, const Params& params, Motion& motion);
-  [[nodiscard]] RegionMotion matchRegion(std::span<const MatchedPart> parts, const Picture& picture,
-                                         ShiftRange range, SearchScratch& scratch) const;
 
   Context context_;
   std::shared_ptr<const Picture> previous_;
-  PaddedLuma padded_;
-  BoxSums boxes_;
+  SearchedPicture searched_;
   MatchedBlocks blocks_;
   std::vector<uint8_t> isStill_;  ///< By region: none of its matched pixels has changed.
   std::vector<SearchScratch> scratch_;
@@ -84,33 +73,30 @@ void CpuMotion::match(const graph::Graph& graph, const Params& params, Motion& m
   blocks_.find(graph, *context_.cpu);
   if (blocks_.parts().empty()) return;
   // A ring of shifts beyond is seen, too.
-  padded_.build(previous_->luma(), maxShift + 1, *context_.cpu);
-  boxes_.build(padded_, *context_.cpu);
+  searched_.build(previous_->luma(), maxShift + 1, *context_.cpu);
   scratch_.resize(static_cast<size_t>(context_.cpu->threads()));
   isStill_.assign(motion.regions.size(), 0);
   context_.cpu->forEach(static_cast<int>(labels.count), [&](int index, int thread) {
     const auto i = static_cast<size_t>(index);
-    const auto parts = blocks_.partsOf(static_cast<uint32_t>(index) + 1);
+    const auto label = static_cast<uint32_t>(index) + 1;
+    const auto parts = blocks_.partsOf(label);
     if (parts.empty()) return;
     isStill_[i] = isUnchanged(parts, graph.picture->luma(), previous_->luma());
     // Where nothing changed no shift is better than none, and of the others only the nearest count.
     const ShiftRange range =
         isStill_[i] != 0 ? ShiftRange{0, 1} : ShiftRange{maxShift, maxShift + 1};
+    const FoundShift found = searchShifts(parts, graph.picture->luma(), searched_, range,
+                                          scratch_[static_cast<size_t>(thread)]);
+    const GradientProducts& gradients = blocks_.gradientsOf(label);
     motion.regions[i] =
-        matchRegion(parts, *graph.picture, range, scratch_[static_cast<size_t>(thread)]);
+        estimateMotion(found, {gradients.xx, gradients.xy, gradients.yy, blocks_.pixelsOf(label)});
   });
   for (const MatchedPart& part : blocks_.parts()) {
     motion.matchedBlocks += part.pixels() / kBlockWidth;
     if (isStill_[part.label - 1u] != 0) motion.stillBlocks += part.pixels() / kBlockWidth;
   }
   if (params.isSubpixel)
-    refinement_.run(graph, blocks_, *previous_, padded_, *context_.cpu, motion.regions);
-}
-
-RegionMotion CpuMotion::matchRegion(std::span<const MatchedPart> parts, const Picture& picture,
-                                    ShiftRange range, SearchScratch& scratch) const {
-  const FoundShift found = searchShifts(parts, picture.luma(), {padded_, boxes_}, range, scratch);
-  return estimateMotion(found, gradientsOf(parts, picture.luma()));
+    refinement_.run(graph, blocks_, *previous_, searched_.luma, *context_.cpu, motion.regions);
 }
 
 }  // namespace

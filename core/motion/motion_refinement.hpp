@@ -11,6 +11,7 @@
 #pragma once
 
 #include "core/base/picture.hpp"
+#include "core/motion/matched_blocks.hpp"
 #include "core/motion/motion.hpp"
 #include "core/motion/motion_consensus.hpp"
 

@@ -60,4 +60,15 @@ class BoxSums {
   Image<uint16_t> rows_;
 };
 
+/// What shifts are searched in: the picture before.
+struct SearchedPicture {
+  PaddedLuma luma;
+  BoxSums boxes;
+
+  void build(ImageView<const uint8_t> from, int reach, const Executor& executor) {
+    luma.build(from, reach, executor);
+    boxes.build(luma, executor);
+  }
+};
+
 }  // namespace rg::motion

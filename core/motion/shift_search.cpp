@@ -11,36 +11,35 @@ namespace rg::motion {
 namespace {
 
 struct Shifted {
+  ImageView<const uint8_t> luma;
   const SearchedPicture& previous;
   Point e;
 };
 
-uint32_t sumPlainly(std::span<const MatchedPart> parts, ImageView<const uint8_t> luma,
-                    const Shifted& shifted) {
+uint32_t sumPlainly(std::span<const MatchedPart> parts, const Shifted& shifted) {
   uint32_t sum = 0;
   for (const MatchedPart& part : parts)
     forBlocks(part, [&](int x, int y) {
       const uint8_t* before = shifted.previous.luma.along(x + shifted.e.x, y + shifted.e.y);
       for (int i = 0; i < kBlockWidth; ++i)
-        sum += static_cast<uint32_t>(absDiff(luma.at(x + i, y), before[i]));
+        sum += static_cast<uint32_t>(absDiff(shifted.luma.at(x + i, y), before[i]));
     });
   return sum;
 }
 
-uint32_t boundPlainly(std::span<const MatchedPart> parts, ImageView<const uint8_t> luma,
-                      const Shifted& shifted) {
+uint32_t boundPlainly(std::span<const MatchedPart> parts, const Shifted& shifted) {
   uint32_t bound = 0;
   for (const MatchedPart& part : parts)
     forBoxes(part, [&](int x, int y) {
       int now = 0, before = 0;
       for (int row = 0; row < kBoxSide; ++row)
         for (int i = 0; i < kBoxSide; ++i) {
-          now += luma.at(x + i, y + row);
+          now += shifted.luma.at(x + i, y + row);
           before += shifted.previous.luma.along(x + shifted.e.x, y + row + shifted.e.y)[i];
         }
       bound += static_cast<uint32_t>(absDiff(now, before));
     });
-  return std::min<uint32_t>(bound, kMostBound);
+  return bound;
 }
 
 }  // namespace
@@ -53,9 +52,9 @@ FoundShift searchShiftsPlainly(std::span<const MatchedPart> parts, ImageView<con
   uint64_t bounds = 0;
   for (int dy = -reach; dy <= reach; ++dy)
     for (int dx = -reach; dx <= reach; ++dx) {
-      const Shifted shifted{previous, {-dx, -dy}};
-      sums.push_back(sumPlainly(parts, luma, shifted));
-      bounds += boundPlainly(parts, luma, shifted);
+      const Shifted shifted{luma, previous, {-dx, -dy}};
+      sums.push_back(sumPlainly(parts, shifted));
+      bounds += boundPlainly(parts, shifted);
       if (std::max(std::abs(dx), std::abs(dy)) <= range.maxShift)
         best = std::min(best, {sums.back(), dx * dx + dy * dy, dy, dx});
     }

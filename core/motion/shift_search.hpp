@@ -12,7 +12,7 @@
 #pragma once
 
 #include "core/base/geometry.hpp"
-#include "core/motion/matched_blocks.hpp"
+#include "core/motion/matched_part.hpp"
 #include "core/motion/padded_luma.hpp"
 
 #include <array>
@@ -27,18 +27,14 @@ struct FoundShift {
   /// At (d.x + i, d.y + j): [3 (j + 1) + i + 1].
   std::array<uint32_t, 9> sums{};
   uint32_t rival = UINT32_MAX;  ///< The least sum of all other shifts.
-  uint32_t mean = 0;            ///< Of the bounds of all shifts.
-  bool isBeaten = false;        ///< By a shift that may not be the best one.
+  /// Of all shifts: by how much the sums of the region's 4x4 boxes differ, added up. What a shift
+  /// at random leaves, at that scale.
+  uint32_t mean = 0;
+  bool isBeaten = false;  ///< By a shift that may not be the best one.
 
   [[nodiscard]] int64_t sum(int dx = 0, int dy = 0) const {
     return sums[static_cast<size_t>(3 * (dy + 1) + dx + 1)];
   }
-};
-
-/// The picture before, padded by at least the search's reach.
-struct SearchedPicture {
-  const PaddedLuma& luma;
-  const BoxSums& boxes;
 };
 
 /// Shifts of up to maxShift may be the best one; those up to reach, which is greater, are seen.
@@ -47,7 +43,7 @@ struct ShiftRange {
   int reach = 0;
 };
 
-/// Blocks of 4x1 pixels and boxes of a region, and where they are seen at shift (−reach, −reach).
+/// Blocks of 4x1 pixels and boxes of a region, and where in the previous picture, without a shift.
 struct SearchedBlock {
   ptrdiff_t offset = 0;
   uint32_t pixels = 0;
@@ -61,7 +57,7 @@ struct SearchedBox {
 struct SearchScratch {
   std::vector<SearchedBlock> blocks;
   std::vector<SearchedBox> boxes;
-  Image<uint16_t> bounds;
+  Image<uint16_t> bounds, someBounds;  ///< By shift: of all boxes, of some.
   Image<uint32_t> sums;
   std::vector<uint16_t> leasts;   ///< Of the bounds of each group of shifts.
   std::vector<uint8_t> isSummed;  ///< By group of shifts.
@@ -71,7 +67,7 @@ struct SearchScratch {
 inline constexpr uint16_t kMostBound = UINT16_MAX;
 
 /// On the best instructions that the machine has; the same as searchShiftsPlainly on all. parts: at
-/// least one, of fewer than 2^22 pixels.
+/// least one, of fewer than 2^22 pixels. previous: padded by at least the range's reach.
 [[nodiscard]] FoundShift searchShifts(std::span<const MatchedPart> parts,
                                       ImageView<const uint8_t> luma,
                                       const SearchedPicture& previous, const ShiftRange& range,
@@ -87,13 +83,18 @@ inline constexpr uint16_t kMostBound = UINT16_MAX;
 /// into each run of blocks, from its upper end on.
 template <class Visit>
 void forBoxes(const MatchedPart& part, Visit&& visit) {
-  for (int half = 0; half < 2; ++half)
-    for (int row = 0, run = 0; row < kPartHeight; ++row) {
-      run = (part.blocks >> (2 * row + half) & 1) != 0 ? run + 1 : 0;
-      if (run < kBoxSide) continue;
-      visit(part.x() + half * kBlockWidth, part.y() + row - kBoxSide + 1);
-      run = 0;
+  constexpr uint64_t kOneHalf = 0x5555555555555555;
+  constexpr uint64_t kBox = (uint64_t{1} << 2 * kBoxSide) - 1;
+  for (int half = 0; half < 2; ++half) {
+    const uint64_t rows = part.blocks >> half & kOneHalf;
+    // Of each row whether a box's worth of rows from it on has blocks.
+    uint64_t firsts = rows & rows >> 2 & rows >> 4 & rows >> 6;
+    while (firsts != 0) {
+      const int bit = std::countr_zero(firsts);
+      visit(part.x() + half * kBlockWidth, part.y() + bit / 2);
+      firsts &= ~(kBox << bit);
     }
+  }
 }
 
 }  // namespace rg::motion

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/motion/textured_cells.hpp"
 
-#include "core/motion/fit_sums.hpp"
-
 #include <algorithm>
 #include <bit>
 #include <functional>
@@ -34,8 +32,7 @@ MatchedPart cellOf(std::span<const MatchedPart> parts, uint32_t number) {
 constexpr int kTextureShift = 60, kTurnShift = 32, kTurnBits = kTextureShift - kTurnShift;
 
 /// The cells of larger ranks are kept first. Turns whose bits are reversed are spread evenly.
-uint64_t rankOf(const MatchedPart& cell, size_t turn, ImageView<const uint8_t> luma) {
-  const GradientProducts sums = sumGradients({&cell, 1}, luma);
+uint64_t rankOf(const MatchedPart& cell, size_t turn, const GradientProducts& sums) {
   const auto mean = static_cast<uint64_t>(sums.xx + sums.yy) / std::max(cell.pixels(), kLeastPx);
   const auto texture = static_cast<uint64_t>(std::bit_width(mean)) / 2;
   const uint64_t later = reverseBits(static_cast<uint32_t>(turn)) >> (32 - kTurnBits);
@@ -44,21 +41,30 @@ uint64_t rankOf(const MatchedPart& cell, size_t turn, ImageView<const uint8_t> l
 
 }  // namespace
 
-void keepTextured(ImageView<const uint8_t> luma, std::span<MatchedPart> parts,
-                  std::vector<uint64_t>& ranks) {
+GradientProducts keepTextured(ImageView<const uint8_t> luma, std::span<MatchedPart> parts,
+                              TextureScratch& scratch) {
+  std::vector<uint64_t>& ranks = scratch.ranks;
   ranks.clear();
-  for (uint32_t i = 0; i < parts.size() * kCellsInPart; ++i) {
+  scratch.gradients.resize(parts.size() * kCellsInPart);
+  for (uint32_t i = 0; i < scratch.gradients.size(); ++i) {
     const MatchedPart cell = cellOf(parts, i);
-    if (cell.blocks != 0) ranks.push_back(rankOf(cell, ranks.size(), luma) | i);
+    if (cell.blocks == 0) continue;
+    scratch.gradients[i] = sumGradients({&cell, 1}, luma);
+    ranks.push_back(rankOf(cell, ranks.size(), scratch.gradients[i]) | i);
   }
   std::sort(ranks.begin(), ranks.end(), std::greater<>());
+  GradientProducts left;
   uint32_t pixels = 0;
   for (const uint64_t rank : ranks) {
     const auto number = static_cast<uint32_t>(rank);
     const MatchedPart cell = cellOf(parts, number);
-    if (pixels >= kEnoughPx) parts[number / kCellsInPart].blocks &= ~cell.blocks;
+    if (pixels >= kEnoughPx)
+      parts[number / kCellsInPart].blocks &= ~cell.blocks;
+    else
+      left += scratch.gradients[number];
     pixels += cell.pixels();
   }
+  return left;
 }
 
 }  // namespace rg::motion

@@ -10,7 +10,8 @@
 #pragma once
 
 #include "core/base/memory/image.hpp"
-#include "core/motion/matched_blocks.hpp"
+#include "core/motion/fit_sums.hpp"
+#include "core/motion/matched_part.hpp"
 
 #include <cstdint>
 #include <span>
@@ -21,9 +22,16 @@ namespace rg::motion {
 /// Cells are kept until they hold so many matched pixels.
 inline constexpr uint32_t kEnoughPx = 768;
 
+/// What a thread needs; reused from region to region.
+struct TextureScratch {
+  std::vector<uint64_t> ranks;
+  std::vector<GradientProducts> gradients;  ///< By cell, those without blocks as well.
+};
+
 /// Removes blocks from the parts of one region, those of whole cells, until what is left is enough;
-/// parts may be left without any. luma: of the frame that the region is in.
-void keepTextured(ImageView<const uint8_t> luma, std::span<MatchedPart> parts,
-                  std::vector<uint64_t>& ranks);
+/// parts may be left without any. luma: of the frame that the region is in. Returns the sums over
+/// what is left.
+GradientProducts keepTextured(ImageView<const uint8_t> luma, std::span<MatchedPart> parts,
+                              TextureScratch& scratch);
 
 }  // namespace rg::motion

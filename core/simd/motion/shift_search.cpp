@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// searchShifts for every instruction set. The machine's SAD instructions compare four pixels at
-// eight neighbouring places at once (mpsadbw; vdbpsadbw does so in four lanes). So a vector holds
-// sums of shifts that follow each other along x: lanes of eight.
+// searchShifts for every instruction set.
 #include "core/motion/shift_search.hpp"
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 #include <cstring>
 #include <limits>
 #include <tuple>
+#include <type_traits>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/simd/motion/shift_search.cpp"
@@ -16,6 +15,8 @@
 
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
+// After foreach_target, once for each.
+#include "core/simd/motion/sad_lanes.hpp"
 
 #ifndef REGIONGRAPH_SIMD_SHIFT_SEARCH_ONCE
 #define REGIONGRAPH_SIMD_SHIFT_SEARCH_ONCE
@@ -23,32 +24,52 @@ namespace rg::motion::simd {
 
 /// Shifts along x that are summed together.
 constexpr int kGroup = 32;
+/// Of a row's last group the first half, where that is enough.
+constexpr int kHalfGroup = kGroup / 2;
 /// Blocks whose sums fit 16 bits.
 constexpr size_t kMostBlocks = 64;
 static_assert(kMostBlocks * kBlockWidth * 255 <= 0xFFFF);
+/// Boxes whose differences fit 16 bits.
+constexpr size_t kMostBoxes = 16;
+static_assert(kMostBoxes * kBoxSide * kBoxSide * 255 <= 0xFFFF);
 /// Rows of shifts whose bounds are taken together: there are so many rows beyond the last.
 constexpr int kRowsAtOnce = 4;
 
+/// Of the pixels whose first is `at`: bytes are added in lanes of 16 bits.
+inline uint16_t sumBox(const uint8_t* at, ptrdiff_t stride) {
+  constexpr uint64_t kEven = 0x00FF00FF00FF00FF, kOnes = 0x0001000100010001;
+  uint64_t lanes = 0;
+  for (int pair = 0; pair < kBoxSide; pair += 2) {
+    uint32_t rows[2];
+    std::memcpy(&rows[0], at + pair * stride, kBoxSide);
+    std::memcpy(&rows[1], at + (pair + 1) * stride, kBoxSide);
+    const uint64_t bytes = uint64_t{rows[1]} << 32 | rows[0];
+    lanes += (bytes & kEven) + (bytes >> 8 & kEven);
+  }
+  return static_cast<uint16_t>(lanes * kOnes >> 48);
+}
+static_assert(kBoxSide == sizeof(uint32_t));
+
 inline void listBlocks(std::span<const MatchedPart> parts, ImageView<const uint8_t> luma,
-                       const SearchedPicture& previous, int reach, SearchScratch& scratch) {
-  scratch.blocks.clear();
-  scratch.boxes.clear();
-  const uint8_t* pixels = previous.luma.along(-reach, -reach);
-  const uint16_t* boxes = previous.boxes.along(-reach, -reach);
+                       const SearchedPicture& previous, SearchScratch& scratch) {
+  size_t most = 0;
+  for (const MatchedPart& part : parts) most += part.pixels() / kBlockWidth;
+  scratch.blocks.resize(most);
+  scratch.boxes.resize(most / kBoxSide);
+  SearchedBlock* block = scratch.blocks.data();
+  SearchedBox* box = scratch.boxes.data();
+  const ptrdiff_t pixelStride = previous.luma.stride(), boxStride = previous.boxes.stride();
   for (const MatchedPart& part : parts) {
     forBlocks(part, [&](int x, int y) {
-      SearchedBlock block{previous.luma.along(x - reach, y - reach) - pixels, 0};
-      std::memcpy(&block.pixels, luma.row(y) + x, kBlockWidth);
-      scratch.blocks.push_back(block);
+      block->offset = y * pixelStride + x;
+      std::memcpy(&block->pixels, luma.row(y) + x, kBlockWidth);
+      ++block;
     });
     forBoxes(part, [&](int x, int y) {
-      int sum = 0;
-      for (int row = 0; row < kBoxSide; ++row)
-        for (int i = 0; i < kBoxSide; ++i) sum += luma.row(y + row)[x + i];
-      scratch.boxes.push_back(
-          {previous.boxes.along(x - reach, y - reach) - boxes, static_cast<uint16_t>(sum)});
+      *box++ = {y * boxStride + x, sumBox(luma.row(y) + x, luma.strideBytes)};
     });
   }
+  scratch.boxes.resize(static_cast<size_t>(box - scratch.boxes.data()));
 }
 
 }  // namespace rg::motion::simd
@@ -58,112 +79,37 @@ HWY_BEFORE_NAMESPACE();
 namespace rg::motion::simd::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-#if HWY_TARGET <= HWY_AVX3
-/// Four lanes: 32 shifts.
-struct Lanes {
-  using Vector = __m512i;
-  static constexpr int kCount = 4;
-  static Vector zero() { return _mm512_setzero_si512(); }
-  static void store(Vector v, uint16_t* to) { _mm512_storeu_si512(to, v); }
-  static Vector spread(const uint8_t* from) {
-    return _mm512_permutexvar_epi64(_mm512_setr_epi64(0, 1, 1, 2, 2, 3, 3, 4),
-                                    _mm512_loadu_si512(from));
-  }
-  static Vector repeat(uint32_t pixels) { return _mm512_set1_epi32(static_cast<int>(pixels)); }
-  static Vector add(Vector a, Vector b) { return _mm512_add_epi16(a, b); }
-  static Vector sad(Vector before, Vector block) {
-    // Dwords of a lane that the two halves of the SADs are taken from: 0 1, 1 2.
-    return _mm512_dbsad_epu8(block, before, 0 | 1 << 2 | 1 << 4 | 2 << 6);
-  }
-};
-#elif HWY_TARGET <= HWY_AVX2
-/// Two lanes.
-struct Lanes {
-  using Vector = __m256i;
-  static constexpr int kCount = 2;
-  static Vector zero() { return _mm256_setzero_si256(); }
-  static void store(Vector v, uint16_t* to) {
-    _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), v);
-  }
-  static Vector spread(const uint8_t* from) {
-    return _mm256_permute4x64_epi64(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(from)),
-                                    0 | 1 << 2 | 1 << 4 | 2 << 6);
-  }
-  static Vector repeat(uint32_t pixels) { return _mm256_set1_epi32(static_cast<int>(pixels)); }
-  static Vector add(Vector a, Vector b) { return _mm256_add_epi16(a, b); }
-  static Vector sad(Vector before, Vector block) { return _mm256_mpsadbw_epu8(before, block, 0); }
-};
-#elif HWY_TARGET != HWY_SCALAR
-/// One lane of bytes; where there is no instruction for it, four differences are added up.
-struct Lanes {
-  using D8 = hn::Full128<uint8_t>;
-  using D16 = hn::Full128<uint16_t>;
-  using Vector = hn::Vec<D16>;
-  static constexpr int kCount = 1;
-  static Vector zero() { return hn::Zero(D16()); }
-  static void store(Vector v, uint16_t* to) { hn::StoreU(v, D16(), to); }
-  static Vector spread(const uint8_t* from) { return hn::BitCast(D16(), hn::LoadU(D8(), from)); }
-  static Vector repeat(uint32_t pixels) {
-    return hn::BitCast(D16(), hn::Set(hn::Full128<uint32_t>(), pixels));
-  }
-  static Vector add(Vector a, Vector b) { return hn::Add(a, b); }
-#if HWY_TARGET == HWY_SSE4
-  static Vector sad(Vector before, Vector block) {
-    return Vector{_mm_mpsadbw_epu8(before.raw, block.raw, 0)};
-  }
-#else
-  static Vector differences(Vector before, Vector block, int pixel) {
-    const D8 d8;
-    const auto a = hn::BitCast(d8, before);
-    const auto b =
-        hn::TableLookupBytes(hn::BitCast(d8, block), hn::Set(d8, static_cast<uint8_t>(pixel)));
-    return hn::PromoteTo(D16(), hn::LowerHalf(hn::Sub(hn::Max(a, b), hn::Min(a, b))));
-  }
-  static Vector sad(Vector before, Vector block) {
-    const D8 d8;
-    const auto from = hn::BitCast(d8, before);
-    Vector sum = differences(before, block, 0);
-    sum = hn::Add(sum, differences(hn::BitCast(D16(), hn::ShiftRightBytes<1>(d8, from)), block, 1));
-    sum = hn::Add(sum, differences(hn::BitCast(D16(), hn::ShiftRightBytes<2>(d8, from)), block, 2));
-    return hn::Add(sum,
-                   differences(hn::BitCast(D16(), hn::ShiftRightBytes<3>(d8, from)), block, 3));
-  }
-#endif
-};
-#endif
-
-#if HWY_TARGET == HWY_SCALAR
-
+/// Of at most kMostBlocks blocks the sums of `kShifts` shifts, the first of which sees them from
+/// `at`.
+template <int kShifts>
 void sumBlocks(std::span<const SearchedBlock> blocks, const uint8_t* at, uint16_t* sums) {
-  std::fill_n(sums, kGroup, uint16_t{0});
+#if HWY_TARGET == HWY_SCALAR
+  std::fill_n(sums, kShifts, uint16_t{0});
   for (const SearchedBlock& block : blocks) {
     uint8_t pixels[kBlockWidth];
     std::memcpy(pixels, &block.pixels, kBlockWidth);
-    for (int i = 0; i < kGroup; ++i)
+    for (int i = 0; i < kShifts; ++i)
       for (int k = 0; k < kBlockWidth; ++k) {
         const int d = pixels[k] - at[block.offset + i + k];
         sums[i] = static_cast<uint16_t>(sums[i] + (d < 0 ? -d : d));
       }
   }
-}
-
 #else
-
-/// Of at most kMostBlocks blocks the sums of kGroup shifts, the first of which sees them from `at`.
-void sumBlocks(std::span<const SearchedBlock> blocks, const uint8_t* at, uint16_t* sums) {
-  constexpr int kShifts = 8 * Lanes::kCount, kVectors = kGroup / kShifts;
+#if HWY_TARGET <= HWY_AVX3
+  using Lanes = std::conditional_t<kShifts == kGroup, WideLanes, Lanes>;
+#endif
+  constexpr int kInVector = 8 * Lanes::kCount, kVectors = kShifts / kInVector;
   typename Lanes::Vector totals[kVectors];
   for (auto& total : totals) total = Lanes::zero();
   for (const SearchedBlock& block : blocks) {
     const auto pixels = Lanes::repeat(block.pixels);
     for (int k = 0; k < kVectors; ++k)
-      totals[k] =
-          Lanes::add(totals[k], Lanes::sad(Lanes::spread(at + block.offset + k * kShifts), pixels));
+      totals[k] = Lanes::add(totals[k],
+                             Lanes::sad(Lanes::spread(at + block.offset + k * kInVector), pixels));
   }
-  for (int k = 0; k < kVectors; ++k) Lanes::store(totals[k], sums + k * kShifts);
-}
-
+  for (int k = 0; k < kVectors; ++k) Lanes::store(totals[k], sums + k * kInVector);
 #endif
+}
 
 // A loop of which the compiler makes vectors: std::min is one of selected references.
 template <class T>
@@ -171,6 +117,13 @@ T leastOf(const T* values, int count) {
   T least = std::numeric_limits<T>::max();
   for (int i = 0; i < count; ++i) least = values[i] < least ? values[i] : least;
   return least;
+}
+
+template <class T>
+T greatestOf(const T* values, int count) {
+  T greatest = 0;
+  for (int i = 0; i < count; ++i) greatest = values[i] > greatest ? values[i] : greatest;
+  return greatest;
 }
 
 class Search {
@@ -184,7 +137,8 @@ class Search {
         boxes_(previous.boxes.along(-range.reach, -range.reach)),
         boxStride_(previous.boxes.stride()),
         scratch_(scratch) {
-    scratch.bounds.resize({groups_ * kGroup, side_ + kRowsAtOnce - 1});
+    for (Image<uint16_t>* bounds : {&scratch.bounds, &scratch.someBounds})
+      bounds->resize({groups_ * kGroup, side_ + kRowsAtOnce - 1});
     scratch.sums.resize({groups_ * kGroup, side_});
     scratch.leasts.resize(static_cast<size_t>(groups_ * side_));
     scratch.isSummed.assign(static_cast<size_t>(groups_ * side_), 0);
@@ -211,33 +165,57 @@ class Search {
  private:
   [[nodiscard]] int groupAt(int column, int row) const { return row * groups_ + column / kGroup; }
 
-  /// Returns their mean.
+  /// Returns the mean of what they bound, which may be larger than any bound.
   uint32_t findBounds() {
-    for (int row = 0; row < side_; row += kRowsAtOnce)
-      for (int group = 0; group < groups_; ++group) findBounds(row, group * kGroup);
-    uint64_t sum = 0;
+    const std::span<const SearchedBox> boxes = scratch_.boxes;
+    uint64_t sum = findBounds(boxes, scratch_.bounds);
+    bool isExact = true;
     for (int row = 0; row < side_; ++row) {
       uint16_t* bounds = scratch_.bounds.row(row);
-      uint32_t rowSum = 0;
-      for (int i = 0; i < side_; ++i) rowSum += bounds[i];
-      sum += rowSum;
+      isExact = isExact && greatestOf(bounds, side_) < kMostBound;
       std::fill_n(bounds + side_, groups_ * kGroup - side_, kMostBound);
       for (int group = 0; group < groups_; ++group)
         scratch_.leasts[static_cast<size_t>(row * groups_ + group)] =
             leastOf(bounds + group * kGroup, kGroup);
     }
+    if (!isExact) {
+      sum = 0;
+      for (size_t first = 0; first < boxes.size(); first += kMostBoxes)
+        sum += findBounds(boxes.subspan(first, std::min(kMostBoxes, boxes.size() - first)),
+                          scratch_.someBounds);
+    }
     const auto side = static_cast<uint64_t>(std::max(side_, 1));
     return static_cast<uint32_t>(sum / (side * side));
   }
 
-  void findBounds(int row, int column) {
-    const hn::CappedTag<uint16_t, kGroup> d;
+  /// Returns their sum: of at most kMostBoxes they are exact.
+  uint64_t findBounds(std::span<const SearchedBox> boxes, Image<uint16_t>& to) {
+    for (int row = 0; row < side_; row += kRowsAtOnce)
+      for (int column = 0; column < side_; column += kGroup) {
+        if (side_ - column > kHalfGroup)
+          findBounds<kGroup>(boxes, {column, row}, to);
+        else
+          findBounds<kHalfGroup>(boxes, {column, row}, to);
+      }
+    uint64_t sum = 0;
+    for (int row = 0; row < side_; ++row) {
+      const uint16_t* bounds = to.row(row);
+      uint32_t rowSum = 0;
+      for (int i = 0; i < side_; ++i) rowSum += bounds[i];
+      sum += rowSum;
+    }
+    return sum;
+  }
+
+  template <int kShifts>
+  void findBounds(std::span<const SearchedBox> boxes, Point shift, Image<uint16_t>& to) {
+    const hn::CappedTag<uint16_t, kShifts> d;
     const hn::RebindToSigned<decltype(d)> signedTag;
     const auto lanes = static_cast<int>(hn::Lanes(d));
-    for (int first = column; first < column + kGroup; first += lanes) {
-      const uint16_t* at = boxes_ + row * boxStride_ + first;
+    for (int first = shift.x; first < shift.x + kShifts; first += lanes) {
+      const uint16_t* at = boxes_ + shift.y * boxStride_ + first;
       auto a = hn::Zero(d), b = a, c = a, e = a;
-      for (const SearchedBox& box : scratch_.boxes) {
+      for (const SearchedBox& box : boxes) {
         const uint16_t* before = at + box.offset;
         const auto sum = hn::Set(d, box.sum);
         const auto apart = [&](int k) {
@@ -249,10 +227,10 @@ class Search {
         c = hn::SaturatedAdd(c, apart(2));
         e = hn::SaturatedAdd(e, apart(3));
       }
-      hn::StoreU(a, d, scratch_.bounds.row(row) + first);
-      hn::StoreU(b, d, scratch_.bounds.row(row + 1) + first);
-      hn::StoreU(c, d, scratch_.bounds.row(row + 2) + first);
-      hn::StoreU(e, d, scratch_.bounds.row(row + 3) + first);
+      hn::StoreU(a, d, to.row(shift.y) + first);
+      hn::StoreU(b, d, to.row(shift.y + 1) + first);
+      hn::StoreU(c, d, to.row(shift.y + 2) + first);
+      hn::StoreU(e, d, to.row(shift.y + 3) + first);
     }
   }
 
@@ -280,16 +258,25 @@ class Search {
     const int row = group / groups_, column = group % groups_ * kGroup;
     const uint8_t* at = pixels_ + row * pixelStride_ + column;
     uint32_t* to = scratch_.sums.row(row) + column;
-    std::fill_n(to, kGroup, 0u);
-    const std::span<const SearchedBlock> blocks = scratch_.blocks;
-    for (size_t first = 0; first < blocks.size(); first += kMostBlocks) {
-      uint16_t sums[kGroup];
-      sumBlocks(blocks.subspan(first, std::min(kMostBlocks, blocks.size() - first)), at, sums);
-      for (int i = 0; i < kGroup; ++i) to[i] += sums[i];
-    }
+    if (side_ - column > kHalfGroup)
+      sumShifts<kGroup>(at, to);
+    else
+      sumShifts<kHalfGroup>(at, to);
     std::fill_n(to + std::min(kGroup, side_ - column), std::max(0, column + kGroup - side_),
                 UINT32_MAX);
     noteLeasts(row, column);
+  }
+
+  template <int kShifts>
+  void sumShifts(const uint8_t* at, uint32_t* to) const {
+    std::fill_n(to, kShifts, 0u);
+    const std::span<const SearchedBlock> blocks = scratch_.blocks;
+    for (size_t first = 0; first < blocks.size(); first += kMostBlocks) {
+      uint16_t sums[kShifts];
+      sumBlocks<kShifts>(blocks.subspan(first, std::min(kMostBlocks, blocks.size() - first)), at,
+                         sums);
+      for (int i = 0; i < kShifts; ++i) to[i] += sums[i];
+    }
   }
 
   void noteLeasts(int row, int column) {
@@ -366,7 +353,7 @@ class Search {
 FoundShift searchAll(std::span<const MatchedPart> parts, ImageView<const uint8_t> luma,
                      const SearchedPicture& previous, const ShiftRange& range,
                      SearchScratch& scratch) {
-  listBlocks(parts, luma, previous, range.reach, scratch);
+  listBlocks(parts, luma, previous, scratch);
   return Search(previous, range, scratch).run();
 }
 

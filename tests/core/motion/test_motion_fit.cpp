@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "core/motion/matched_blocks.hpp"
 #include "core/motion/motion_fit.hpp"
 #include "tests/core/scenes.hpp"
 

@@ -53,19 +53,21 @@ std::vector<motion::MatchedPart> raggedParts(Size size) {
   return parts;
 }
 
+motion::SearchedPicture searched(const Image<uint8_t>& luma, int reach) {
+  motion::SearchedPicture picture;
+  picture.build(luma, reach, Executor(1));
+  return picture;
+}
+
 void expectExhaustive(const Image<uint8_t>& before, const Image<uint8_t>& now,
                       const std::vector<motion::MatchedPart>& parts,
                       const motion::ShiftRange& range) {
-  motion::PaddedLuma padded;
-  padded.build(before, range.reach + 1, Executor(1));
-  motion::BoxSums boxes;
-  boxes.build(padded, Executor(1));
-  const motion::FoundShift right = motion::searchShiftsPlainly(parts, now, {padded, boxes}, range);
+  const motion::SearchedPicture previous = searched(before, range.reach + 1);
+  const motion::FoundShift right = motion::searchShiftsPlainly(parts, now, previous, range);
   test::forEachTarget([&] {
     motion::SearchScratch scratch;
     for (int turn = 0; turn < 2; ++turn) {
-      const motion::FoundShift found =
-          motion::searchShifts(parts, now, {padded, boxes}, range, scratch);
+      const motion::FoundShift found = motion::searchShifts(parts, now, previous, range, scratch);
       EXPECT_EQ(found.d.x, right.d.x);
       EXPECT_EQ(found.d.y, right.d.y);
       EXPECT_EQ(found.sums, right.sums);
@@ -132,15 +134,27 @@ TEST(ShiftSearch, TellsThatAShiftBeyondTheSearchIsBetter) {
   addPart(size, 3, 0, ~uint64_t{0} << 20, parts);
   const Image<uint8_t> before = photographed(size, 0, 0, 1);
   for (const int dx : {11, 12}) {
-    motion::PaddedLuma padded;
-    padded.build(before, 12, Executor(1));
-    motion::BoxSums boxes;
-    boxes.build(padded, Executor(1));
     motion::SearchScratch scratch;
-    const auto found = motion::searchShifts(parts, photographed(size, dx, 0, 1), {padded, boxes},
-                                            {11, 12}, scratch);
+    const auto found = motion::searchShifts(parts, photographed(size, dx, 0, 1),
+                                            searched(before, 12), {11, 12}, scratch);
     EXPECT_EQ(found.isBeaten, dx == 12);
   }
+}
+
+// Of 64 boxes, all of them black before and white now: more than 16 bits hold.
+TEST(ShiftSearch, TheMeanIsOfSumsHoweverLarge) {
+  const Size size{64, 64};
+  std::vector<motion::MatchedPart> parts;
+  for (int column = 0; column < 4; ++column) addPart(size, column, 0, ~uint64_t{0}, parts);
+  Image<uint8_t> black(size), white(size);
+  black.fill(0);
+  white.fill(255);
+  test::forEachTarget([&] {
+    motion::SearchScratch scratch;
+    const auto found = motion::searchShifts(parts, white, searched(black, 8), {7, 8}, scratch);
+    EXPECT_EQ(found.mean, 64 * 16 * 255);
+  });
+  expectExhaustive(black, white, parts, {7, 8});
 }
 
 TEST(ShiftSearch, BoxesLieInRunsOfBlocks) {

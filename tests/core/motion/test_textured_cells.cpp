@@ -31,8 +31,9 @@ uint32_t pixelsOf(std::span<const motion::MatchedPart> parts) {
 
 std::vector<motion::MatchedPart> kept(const Picture& picture,
                                       std::vector<motion::MatchedPart> parts) {
-  std::vector<uint64_t> ranks;
-  motion::keepTextured(picture.luma(), parts, ranks);
+  motion::TextureScratch scratch;
+  const motion::GradientProducts left = motion::keepTextured(picture.luma(), parts, scratch);
+  EXPECT_EQ(left, motion::sumGradientsPlainly(parts, picture.luma()));
   return parts;
 }
 
