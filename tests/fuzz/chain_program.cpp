@@ -82,7 +82,7 @@ void ChainProgram::changeCaps() {
   caps_.width = bytes_.pick(kSides);
   caps_.height = bytes_.pick(kSides);
   caps_.framerate = bytes_.pick(kRates);
-  chain_.setCaps(caps_);
+  offerCaps();
   pushFrames(bytes_.between(0, 4));
 }
 
@@ -105,7 +105,18 @@ void ChainProgram::changeState() {
   GstElement* element = chain_.harness()->element;
   gst_element_set_state(element, bytes_.flip() ? GST_STATE_NULL : GST_STATE_READY);
   gst_element_set_state(element, bytes_.flip() ? GST_STATE_PLAYING : GST_STATE_PAUSED);
-  chain_.setCaps(caps_);
+  offerCaps();
+}
+
+/// Properties may forbid to start, or these caps: then frames are refused, too.
+void ChainProgram::offerCaps() {
+  GstHarness* harness = chain_.harness();
+  GstCaps* caps = gst_caps_from_string(caps_.text().c_str());
+  gst_harness_push_event(harness, gst_event_new_caps(caps));
+  gst_caps_unref(caps);
+  GstSegment segment;
+  gst_segment_init(&segment, GST_FORMAT_TIME);
+  gst_harness_push_event(harness, gst_event_new_segment(&segment));
 }
 
 GstClockTime ChainProgram::nextTime() {

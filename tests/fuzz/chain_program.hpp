@@ -26,6 +26,7 @@ class ChainProgram {
   void changeTimes();
   void changeProperty();
   void changeState();
+  void offerCaps();
   void pushFrames(int count);
   void pushLyingFrame();
   void pushEvent();
