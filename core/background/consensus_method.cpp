@@ -47,7 +47,7 @@ class ConsensusMethod final : public MethodModel {
   }
   void start(const MethodJob& job, Foreground& out);
   bool isTooDark(Foreground& out);
-  void watch(const MethodJob& job, Foreground& out);
+  void watch(const MethodJob& job, uint64_t differing, Foreground& out);
   SceneEvent followCamera(const MethodJob& job);
   SceneEvent followLight(const MethodJob& job);
   bool isElsewhere(const MethodJob& job);
@@ -141,10 +141,10 @@ bool ConsensusMethod::isElsewhere(const MethodJob& job) {
 }
 
 /// Much differs from the model: why?
-void ConsensusMethod::watch(const MethodJob& job, Foreground& out) {
+void ConsensusMethod::watch(const MethodJob& job, uint64_t differing, Foreground& out) {
   const auto pixels = static_cast<uint64_t>(smooth_.size().area());
   SceneEvent& event = out.scene.event;
-  if (uint64_t{countSet(verdicts_.raw)} * 256 < pixels * kOddShare) {
+  if (differing * 256 < pixels * kOddShare) {
     shift_ = {};
     offFrames_ = elsewhereFrames_ = 0;
     ++calmFrames_;
@@ -280,10 +280,9 @@ void ConsensusMethod::segment(const MethodJob& job, Foreground& out) {
   ++frame_;
   smoothAndJudge(*job.picture, model_, toleranceOf(job.params), job.executor, {smooth_, verdicts_});
   const auto pixels = static_cast<uint64_t>(smooth_.size().area());
-  if ((isDark_ || uint64_t{countSet(verdicts_.raw)} * 256 >= pixels * kLightShare) &&
-      isTooDark(out))
-    return;
-  watch(job, out);
+  const uint64_t differing = countSet(verdicts_.raw);
+  if ((isDark_ || differing * 256 >= pixels * kLightShare) && isTooDark(out)) return;
+  watch(job, differing, out);
   if (startsAnew(out.scene.event)) return start(job, out);
   clean(job);
   dissolveGhosts(job);

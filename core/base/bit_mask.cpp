@@ -24,9 +24,7 @@ void thickenRow(const uint64_t* from, int words, int margin, uint64_t* to) {
 
 uint32_t countSet(const BitMask& mask) {
   uint32_t count = 0;
-  for (int y = 0; y < mask.height(); ++y)
-    for (int word = 0; word < mask.wordsPerRow(); ++word)
-      count += static_cast<uint32_t>(std::popcount(mask.row(y)[word]));
+  for (int y = 0; y < mask.height(); ++y) count += simd::countBits(mask.row(y), mask.wordsPerRow());
   return count;
 }
 

@@ -12,9 +12,14 @@ namespace {
 int findColumn(const uint64_t* row, int x, int width, uint64_t other) {
   if (x >= width) return width;
   int word = x / kWordColumns;
+  const int end = (width + kWordColumns - 1) / kWordColumns;
   uint64_t bits = (row[word] ^ other) & (~uint64_t{0} << (x % kWordColumns));
   while (bits == 0) {
-    if (++word * kWordColumns >= width) return width;
+    // Most stretches are long: four words at a time while nothing is found.
+    while (word + 4 < end && ((row[word + 1] ^ other) | (row[word + 2] ^ other) |
+                              (row[word + 3] ^ other) | (row[word + 4] ^ other)) == 0)
+      word += 4;
+    if (++word >= end) return width;
     bits = row[word] ^ other;
   }
   return std::min(width, word * kWordColumns + std::countr_zero(bits));

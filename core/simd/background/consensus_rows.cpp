@@ -129,7 +129,7 @@ V secondDistance(const ModelRow& row, V radius, int x) {
 
 /// The first samples of a word some words on; behind the row's end these are of the next row.
 void prefetch(const ModelRow& row, int x) {
-  constexpr int kAhead = 1, kSamplesAhead = 2;
+  constexpr int kAhead = 2, kSamplesAhead = 3;
   const ptrdiff_t word = ptrdiff_t{64} * row.sampleCount * row.channels;
   const uint8_t* from = row.samples + (x / 64 + kAhead) * word;
   for (int i = 0; i < kSamplesAhead * row.channels; ++i) hwy::Prefetch(from + ptrdiff_t{64} * i);

@@ -4,6 +4,7 @@
 #include "core/simd/base/targets.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 
 #undef HWY_TARGET_INCLUDE
@@ -14,6 +15,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace rg::HWY_NAMESPACE {
 #if HWY_TARGET == HWY_SCALAR
+using plain::countBits;
 using plain::packEqualRow;
 #else
 namespace {
@@ -38,6 +40,17 @@ void packEqualRow(const uint8_t* bytes, int width, uint8_t value, uint64_t* word
   plain::packEqualRow(bytes + x, width - x, value, words);
 }
 
+uint32_t countBits(const uint64_t* words, int count) {
+  const hn::CappedTag<uint64_t, 8> d;
+  const auto lanes = static_cast<int>(hn::Lanes(d));
+  auto sum = hn::Zero(d);
+  int i = 0;
+  for (; i + lanes <= count; i += lanes)
+    sum = hn::Add(sum, hn::PopulationCount(hn::LoadU(d, words + i)));
+  return static_cast<uint32_t>(hn::GetLane(hn::SumOfLanes(d, sum))) +
+         plain::countBits(words + i, count - i);
+}
+
 }  // namespace
 #endif
 }  // namespace rg::HWY_NAMESPACE
@@ -54,12 +67,23 @@ void plain::packEqualRow(const uint8_t* bytes, int width, uint8_t value, uint64_
   }
 }
 
+uint32_t plain::countBits(const uint64_t* words, int count) {
+  uint32_t bits = 0;
+  for (int i = 0; i < count; ++i) bits += static_cast<uint32_t>(std::popcount(words[i]));
+  return bits;
+}
+
 namespace {
 HWY_EXPORT(packEqualRow);
+HWY_EXPORT(countBits);
 }  // namespace
 
 void simd::packEqualRow(const uint8_t* bytes, int width, uint8_t value, uint64_t* words) {
   HWY_DYNAMIC_DISPATCH(packEqualRow)(bytes, width, value, words);
+}
+
+uint32_t simd::countBits(const uint64_t* words, int count) {
+  return HWY_DYNAMIC_DISPATCH(countBits)(words, count);
 }
 
 }  // namespace rg

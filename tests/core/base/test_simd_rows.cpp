@@ -32,6 +32,22 @@ TEST(SimdRows, PackingIsThePlainOne) {
   });
 }
 
+TEST(SimdRows, CountsWhatIsSet) {
+  for (const int count : {0, 1, 7, 8, 9, 30}) {
+    std::vector<uint64_t> words;
+    uint32_t expected = 0;
+    for (uint32_t i = 0; i < 64 * static_cast<uint32_t>(count); ++i) {
+      if (i % 64 == 0) words.push_back(0);
+      const uint64_t bit = mixHash(i, 0, 9) % 3 == 0;
+      words.back() |= bit << i % 64;
+      expected += static_cast<uint32_t>(bit);
+    }
+    EXPECT_EQ(plain::countBits(words.data(), count), expected);
+    test::forEachTarget(
+        [&] { EXPECT_EQ(simd::countBits(words.data(), count), expected) << count; });
+  }
+}
+
 /// Four rows of a picture with guards behind them.
 struct Planes {
   std::array<Image<uint8_t>, 4> rows;
