@@ -3,8 +3,8 @@
 #pragma once
 
 #include "core/background/background.hpp"
-#include "core/base/frame_clock.hpp"
-#include "core/base/frame_count.hpp"
+#include "core/base/time/frame_clock.hpp"
+#include "core/base/time/frame_count.hpp"
 
 namespace rg::background {
 

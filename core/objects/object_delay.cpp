@@ -2,7 +2,7 @@
 #include "core/objects/object_delay.hpp"
 
 #include "core/base/pixel.hpp"
-#include "core/base/time.hpp"
+#include "core/base/time/time.hpp"
 
 #include <algorithm>
 #include <utility>

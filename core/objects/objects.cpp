@@ -4,7 +4,7 @@
 #include "core/base/memory/pool.hpp"
 #include "core/base/pixel.hpp"
 #include "core/base/renewed_stage.hpp"
-#include "core/base/time.hpp"
+#include "core/base/time/time.hpp"
 #include "core/objects/merge/ground_merge.hpp"
 #include "core/objects/merge/motion_layers.hpp"
 #include "core/objects/merge/motion_trends.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/objects/tracking/tracker.hpp"
 
-#include "core/base/frame_count.hpp"
 #include "core/base/pixel.hpp"
+#include "core/base/time/frame_count.hpp"
 
 #include <algorithm>
 #include <numeric>

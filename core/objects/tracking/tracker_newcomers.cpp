@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The foreground that no track explains: noise, a new object, or one that was lost.
-#include "core/base/frame_count.hpp"
 #include "core/base/pixel.hpp"
+#include "core/base/time/frame_count.hpp"
 #include "core/objects/tracking/tracker.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // What becomes of tracks: their size, their state, their end, whom they share a blob with.
-#include "core/base/frame_count.hpp"
 #include "core/base/pixel.hpp"
+#include "core/base/time/frame_count.hpp"
 #include "core/objects/tracking/tracker.hpp"
 
 #include <algorithm>

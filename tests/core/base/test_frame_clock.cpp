@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "core/base/frame_clock.hpp"
+#include "core/base/time/frame_clock.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/background/models/gaussian_background.hpp"
-#include "core/base/frame_clock.hpp"
+#include "core/base/time/frame_clock.hpp"
 #include "tests/support/text_picture.hpp"
 
 #include <gtest/gtest.h>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/base/stage.hpp"
-#include "core/base/time.hpp"
+#include "core/base/time/time.hpp"
 
 #include <algorithm>
 #include <cstdint>
