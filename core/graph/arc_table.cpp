@@ -8,7 +8,14 @@
 namespace rg::graph {
 namespace {
 
+using segmentation::RegionLabel;
+
 constexpr size_t kFirstCapacity = 1024;  // A power of two, as every capacity.
+
+/// Never 0.
+uint32_t keyOf(RegionLabel a, RegionLabel b) {
+  return uint32_t{a.number()} << 16 | b.number();
+}
 
 }  // namespace
 
@@ -21,9 +28,9 @@ void ArcTable::clear() {
   used_ = 0;
 }
 
-void ArcTable::add(uint16_t a, uint16_t b, uint32_t borderPx, uint32_t contrast) {
+void ArcTable::add(RegionLabel a, RegionLabel b, uint32_t borderPx, uint32_t contrast) {
   if (a > b) std::swap(a, b);
-  const uint32_t key = uint32_t{a} << 16 | b;
+  const uint32_t key = keyOf(a, b);
   size_t slot = slotOf(key);
   if (keys_[slot] == 0) {
     if (2 * (used_ + 1) > keys_.size()) {
@@ -53,7 +60,7 @@ void ArcTable::grow() {
   keys_.assign(2 * keys_.size(), 0u);
   arcs_.resize(keys_.size());
   for (const Arc& arc : arcs) {
-    const uint32_t key = uint32_t{arc.a} << 16 | arc.b;
+    const uint32_t key = keyOf(arc.a, arc.b);
     const size_t slot = slotOf(key);
     keys_[slot] = key;
     arcs_[slot] = arc;
@@ -66,11 +73,11 @@ void ArcTable::appendTo(std::vector<Arc>& arcs) const {
 }
 
 void ArcSorter::sortAndJoin(std::vector<Arc>& arcs, uint32_t labelCount) {
-  starts_.assign(size_t{labelCount} + 2, 0);
-  for (const Arc& arc : arcs) ++starts_[arc.a + 1u];
+  starts_.assign(size_t{labelCount} + 1, 0);
+  for (const Arc& arc : arcs) ++starts_[arc.a.index() + 1];
   std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
   sorted_.resize(arcs.size());
-  for (const Arc& arc : arcs) sorted_[starts_[arc.a]++] = arc;
+  for (const Arc& arc : arcs) sorted_[starts_[arc.a.index()]++] = arc;
   arcs.clear();
   for (auto first = sorted_.begin(); first != sorted_.end();) {
     const auto last =

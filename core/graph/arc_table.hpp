@@ -15,8 +15,9 @@ namespace rg::graph {
 class ArcTable {
  public:
   void clear();
-  /// borderPx pairs of two different labels, none of them kNoRegion; contrast: over all pairs.
-  void add(uint16_t a, uint16_t b, uint32_t borderPx, uint32_t contrast);
+  /// borderPx pairs of two different labels, neither of them none; contrast: over all pairs.
+  void add(segmentation::RegionLabel a, segmentation::RegionLabel b, uint32_t borderPx,
+           uint32_t contrast);
   /// In no promised order.
   void appendTo(std::vector<Arc>& arcs) const;
 

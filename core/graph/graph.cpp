@@ -17,6 +17,8 @@
 namespace rg::graph {
 namespace {
 
+using segmentation::RegionLabel;
+
 constexpr int kCentroidFraction = 256;
 constexpr int kMostBands = 8;
 
@@ -96,9 +98,9 @@ class GraphBuilder {
       const uint16_t* ids = labels_.ids.row(y);
       const auto begins = runsOf(y, band, sums);
       for (size_t i = 0; i + 1 < begins.size(); ++i)
-        if (const uint16_t label = ids[begins[i]]; label != segmentation::kNoRegion)
-          list[sums.regions[label - 1u].runs++] = {static_cast<uint16_t>(y), begins[i],
-                                                   begins[i + 1]};
+        if (const auto label = RegionLabel::ofNumber(ids[begins[i]]))
+          list[sums.regions[label.index()].runs++] = {static_cast<uint16_t>(y), begins[i],
+                                                      begins[i + 1]};
     }
   }
 
@@ -122,11 +124,12 @@ class GraphBuilder {
     rg::simd::sumRuns(row, begins.data(), static_cast<int>(count), sums.channels.data());
     for (size_t i = 0; i < count; ++i) {
       const int first = begins[i], last = begins[i + 1];
-      const uint16_t label = ids[first];
-      if (label == segmentation::kNoRegion) continue;
-      addRun(y, first, last, sums.channels[i], sums.regions[label - 1u]);
+      const auto label = RegionLabel::ofNumber(ids[first]);
+      if (!label) continue;
+      addRun(y, first, last, sums.channels[i], sums.regions[label.index()]);
       if (i + 1 < count && ids[last] != segmentation::kNoRegion)
-        sums.arcs.add(label, ids[last], 1, contrast(row, last - 1, row, last));
+        sums.arcs.add(label, RegionLabel::ofNumber(ids[last]), 1,
+                      contrast(row, last - 1, row, last));
     }
   }
 
@@ -164,9 +167,9 @@ class GraphBuilder {
       for (; differing != 0; differing &= differing - 1) {
         const int x = start + std::countr_zero(differing);
         if (ids[x] == segmentation::kNoRegion || idsAbove[x] == segmentation::kNoRegion) continue;
-        if (ids[x] != arc.a || idsAbove[x] != arc.b) {
+        if (ids[x] != arc.a.number() || idsAbove[x] != arc.b.number()) {
           if (arc.borderPx > 0) sums.arcs.add(arc.a, arc.b, arc.borderPx, arc.contrast);
-          arc = {ids[x], idsAbove[x], 0, 0};
+          arc = {RegionLabel::ofNumber(ids[x]), RegionLabel::ofNumber(idsAbove[x]), 0, 0};
         }
         ++arc.borderPx;
         arc.contrast += contrast(row, first + x, above, first + x + lean);

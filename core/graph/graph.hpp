@@ -32,7 +32,7 @@ struct Colour {
   return std::max({absDiff(a.red, b.red), absDiff(a.green, b.green), absDiff(a.blue, b.blue)});
 }
 
-/// A node: regions[i] describes label i + 1.
+/// A node: regions[i] is that of the label of index i.
 struct Region {
   uint32_t areaPx = 0;
   Box box;
@@ -41,10 +41,10 @@ struct Region {
   Colour colour;
 };
 
-/// Two regions that touch; a < b are labels.
+/// Two regions that touch, a < b.
 struct Arc {
-  uint16_t a = 0;
-  uint16_t b = 0;
+  segmentation::RegionLabel a;
+  segmentation::RegionLabel b;
   uint32_t borderPx = 0;  ///< Pairs of 4-neighbours across the border; with 8-connectivity also
                           ///< diagonal pairs.
   uint32_t contrast = 0;  ///< Sum over those pairs of the largest channel difference, grey levels.

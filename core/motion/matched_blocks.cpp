@@ -86,7 +86,7 @@ void MatchedBlocks::collect(const graph::Graph& graph, Chunk& chunk) {
   chunk.places.resize(static_cast<size_t>(size_.width / kPartWidth) + 1);
   for (uint32_t region = chunk.first; region < chunk.last; ++region) {
     const size_t begin = chunk.stripFirst = chunk.parts.size();
-    const auto label = static_cast<uint16_t>(region + 1);
+    const auto label = segmentation::RegionLabel::ofIndex(region);
     const auto runs = graph.runs.of(region);
     for (const Run& run : runs) addInner(run, label, chunk);
     closeStrip(chunk);
@@ -117,7 +117,7 @@ GradientProducts MatchedBlocks::keepEnough(ImageView<const uint8_t> luma, Chunk&
   return gradients;
 }
 
-void MatchedBlocks::addInner(const Run& run, uint16_t label, Chunk& chunk) const {
+void MatchedBlocks::addInner(const Run& run, segmentation::RegionLabel label, Chunk& chunk) const {
   const int begin = run.begin == 0 ? 0 : run.begin + kBorderReach;
   const int end = run.end == size_.width ? run.end : run.end - kBorderReach;
   const int first = (begin + kBlockWidth - 1) / kBlockWidth * kBlockWidth;
@@ -139,8 +139,8 @@ void MatchedBlocks::addInner(const Run& run, uint16_t label, Chunk& chunk) const
 
 /// open: the block that the runs before ended in, as its number in a picture of whole blocks, and
 /// how many of its pixels they hold.
-void MatchedBlocks::addHalves(const Run& run, uint16_t label, std::pair<int, int>& open,
-                              Chunk& chunk) const {
+void MatchedBlocks::addHalves(const Run& run, segmentation::RegionLabel label,
+                              std::pair<int, int>& open, Chunk& chunk) const {
   const int blocks = size_.width / kBlockWidth;
   for (int block = run.begin / kBlockWidth; block * kBlockWidth < run.end && block < blocks;
        ++block) {
@@ -152,7 +152,8 @@ void MatchedBlocks::addHalves(const Run& run, uint16_t label, std::pair<int, int
   }
 }
 
-void MatchedBlocks::add(const Run& run, int column, uint64_t halves, uint16_t label, Chunk& chunk) {
+void MatchedBlocks::add(const Run& run, int column, uint64_t halves,
+                        segmentation::RegionLabel label, Chunk& chunk) {
   const int strip = run.y / kPartHeight;
   if (chunk.parts.size() > chunk.stripFirst && chunk.parts[chunk.stripFirst].strip != strip)
     closeStrip(chunk);

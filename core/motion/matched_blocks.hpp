@@ -44,13 +44,16 @@ class MatchedBlocks {
   void find(const graph::Graph& graph, const Executor& executor);
 
   [[nodiscard]] std::span<const MatchedPart> parts() const { return parts_; }
-  [[nodiscard]] std::span<const MatchedPart> partsOf(uint32_t label) const {
-    return parts().subspan(starts_[label - 1], starts_[label] - starts_[label - 1]);
+  [[nodiscard]] std::span<const MatchedPart> partsOf(segmentation::RegionLabel label) const {
+    const uint32_t region = label.index();
+    return parts().subspan(starts_[region], starts_[region + 1] - starts_[region]);
   }
-  [[nodiscard]] uint32_t pixelsOf(uint32_t label) const { return pixels_[label - 1]; }
+  [[nodiscard]] uint32_t pixelsOf(segmentation::RegionLabel label) const {
+    return pixels_[label.index()];
+  }
   /// Over the parts of a region that has some.
-  [[nodiscard]] const GradientProducts& gradientsOf(uint32_t label) const {
-    return gradients_[label - 1];
+  [[nodiscard]] const GradientProducts& gradientsOf(segmentation::RegionLabel label) const {
+    return gradients_[label.index()];
   }
 
  private:
@@ -66,9 +69,11 @@ class MatchedBlocks {
   void findSteady(ImageView<const uint16_t> labels, const Executor& executor);
   void cutChunks(const graph::RegionRuns& runs);
   void collect(const graph::Graph& graph, Chunk& chunk);
-  void addInner(const Run& run, uint16_t label, Chunk& chunk) const;
-  void addHalves(const Run& run, uint16_t label, std::pair<int, int>& open, Chunk& chunk) const;
-  static void add(const Run& run, int column, uint64_t halves, uint16_t label, Chunk& chunk);
+  void addInner(const Run& run, segmentation::RegionLabel label, Chunk& chunk) const;
+  void addHalves(const Run& run, segmentation::RegionLabel label, std::pair<int, int>& open,
+                 Chunk& chunk) const;
+  static void add(const Run& run, int column, uint64_t halves, segmentation::RegionLabel label,
+                  Chunk& chunk);
   static void closeStrip(Chunk& chunk);
   static GradientProducts keepEnough(ImageView<const uint8_t> luma, Chunk& chunk, size_t begin);
   void dropSmallest();
@@ -79,7 +84,7 @@ class MatchedBlocks {
   Image<uint64_t> steady_;  ///< Bit 4 i: the columns of block i have one label kBorderReach rows
                             ///< up and down.
   std::vector<Chunk> chunks_;
-  std::vector<uint32_t> starts_;  ///< By label: where its parts begin.
+  std::vector<uint32_t> starts_;  ///< By region: where its parts begin.
   std::vector<uint32_t> pixels_;  ///< Of each region, matched.
   std::vector<GradientProducts> gradients_;
   std::vector<uint64_t> ranks_;

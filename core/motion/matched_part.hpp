@@ -2,6 +2,8 @@
 // Matched blocks of a region, a tile at a time (part of stage 4).
 #pragma once
 
+#include "core/segmentation/segmentation.hpp"
+
 #include <bit>
 #include <cstdint>
 
@@ -16,7 +18,7 @@ struct MatchedPart {
   uint64_t blocks = 0;  ///< Bit 2 row + half: the left or right block of a row of the tile.
   uint16_t column = 0;  ///< In tiles.
   uint16_t strip = 0;   ///< In tiles.
-  uint16_t label = 0;
+  segmentation::RegionLabel label;
 
   [[nodiscard]] int x() const { return column * kPartWidth; }
   [[nodiscard]] int y() const { return strip * kPartHeight; }

@@ -78,7 +78,7 @@ void CpuMotion::match(const graph::Graph& graph, const Params& params, Motion& m
   isStill_.assign(motion.regions.size(), 0);
   context_.cpu->forEach(static_cast<int>(labels.count), [&](int index, int thread) {
     const auto i = static_cast<size_t>(index);
-    const auto label = static_cast<uint32_t>(index) + 1;
+    const auto label = segmentation::RegionLabel::ofIndex(i);
     const auto parts = blocks_.partsOf(label);
     if (parts.empty()) return;
     isStill_[i] = isUnchanged(parts, graph.picture->luma(), previous_->luma());
@@ -93,7 +93,7 @@ void CpuMotion::match(const graph::Graph& graph, const Params& params, Motion& m
   });
   for (const MatchedPart& part : blocks_.parts()) {
     motion.matchedBlocks += part.pixels() / kBlockWidth;
-    if (isStill_[part.label - 1u] != 0) motion.stillBlocks += part.pixels() / kBlockWidth;
+    if (isStill_[part.label.index()] != 0) motion.stillBlocks += part.pixels() / kBlockWidth;
   }
   if (params.isSubpixel)
     refinement_.run(graph, blocks_, *previous_, searched_.luma, *context_.cpu, motion.regions);

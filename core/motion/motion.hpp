@@ -34,7 +34,8 @@ struct RegionMotion {
   uint16_t reliability = 0;  ///< 0 (says nothing) … kFullReliability.
 };
 
-/// What prmmotion says of one frame; regions[i] belongs to label i + 1. Immutable once published.
+/// What prmmotion says of one frame; regions[i] is that of the label of index i. Immutable once
+/// published.
 struct Motion {
   Size size;
   Status status = Status::Skipped;  ///< Skipped where there is no previous frame: all vectors are 0

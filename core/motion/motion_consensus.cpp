@@ -86,8 +86,8 @@ void MotionConsensus::findNeighbours(const graph::Graph& graph) {
   const size_t count = graph.regions.size();
   counts_.assign(count, 0);
   for (const graph::Arc& arc : graph.arcs) {
-    ++counts_[arc.a - 1u];
-    ++counts_[arc.b - 1u];
+    ++counts_[arc.a.index()];
+    ++counts_[arc.b.index()];
   }
   starts_.resize(count + 1);
   starts_[0] = 0;
@@ -95,7 +95,7 @@ void MotionConsensus::findNeighbours(const graph::Graph& graph) {
   neighbours_.resize(starts_.back());
   std::fill(counts_.begin(), counts_.end(), 0u);
   for (const graph::Arc& arc : graph.arcs) {
-    const uint32_t a = arc.a - 1u, b = arc.b - 1u;
+    const uint32_t a = arc.a.index(), b = arc.b.index();
     const auto weight = static_cast<int32_t>(std::min<int64_t>(
         kinship(arc, graph.regions[a].colour, graph.regions[b].colour), INT32_MAX));
     neighbours_[starts_[a] + counts_[a]++] = {b, weight};

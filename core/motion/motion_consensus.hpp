@@ -27,8 +27,8 @@ struct SeenMotion {
 
 class MotionConsensus {
  public:
-  /// own[i] and the result's [i] belong to label i + 1. The result is what the neighbours alone
-  /// expect, weight 0 where there are none.
+  /// own[i] and the result's [i] are those of the label of index i. The result is what the
+  /// neighbours alone expect, weight 0 where there are none.
   std::span<const MotionPrior> run(const graph::Graph& graph, std::span<const SeenMotion> own,
                                    const Executor& executor);
 

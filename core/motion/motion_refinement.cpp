@@ -116,7 +116,8 @@ void MotionRefinement::smooth(const Picture& before, int reach, const Executor& 
 
 FitRegion MotionRefinement::regionOf(size_t i, std::span<const RegionMotion> motion) const {
   const graph::Region& region = graph_->regions[i];
-  const std::span<const MatchedPart> parts = blocks_->partsOf(static_cast<uint32_t>(i) + 1);
+  const std::span<const MatchedPart> parts =
+      blocks_->partsOf(segmentation::RegionLabel::ofIndex(i));
   int64_t pixels = 0;
   for (const MatchedPart& part : parts) pixels += part.pixels();
   const int64_t mean = static_cast<int64_t>(motion[i].sad) * kFine / std::max<int64_t>(pixels, 1);

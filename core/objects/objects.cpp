@@ -221,8 +221,8 @@ void CpuObjectStage::markSurroundings(const Input& in, const Objects& objects) {
     const uint16_t* ids = graph.labels->ids.row(y);
     const uint8_t* mask = in.foreground->mask.row(y);
     for (int x = 0; x < graph.size.width; x += kStep)
-      if (ids[x] != segmentation::kNoRegion)
-        majority_[objects.regionGroup[ids[x] - 1u]] +=
+      if (const auto label = segmentation::RegionLabel::ofNumber(ids[x]))
+        majority_[objects.regionGroup[label.index()]] +=
             mask[x] == background::kForegroundPixel ? 1 : -1;
   }
   for (size_t g = 0; g < groups_.size(); ++g) isBackground_[g] = majority_[g] < 0;

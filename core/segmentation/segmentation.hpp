@@ -14,6 +14,7 @@
 #include "core/base/picture.hpp"
 #include "core/base/result.hpp"
 #include "core/base/stage.hpp"
+#include "core/base/which.hpp"
 #include "core/segmentation/hue_decision.hpp"
 
 #include <cstdint>
@@ -31,7 +32,9 @@ enum class Scope : uint8_t {
   Areas,       ///< Those that bgremove's areas cover (coverOf); the rest has 0.
 };
 
-inline constexpr uint16_t kNoRegion = 0;
+/// Which region of a frame. Planes of labels hold its number.
+using RegionLabel = Which<struct RegionKind, uint16_t>;
+inline constexpr uint16_t kNoRegion = RegionLabel().number();  ///< In planes.
 inline constexpr int kAreaMargin = 4;
 
 /// What an area covers: kAreaMargin pixels around its box, up to whole 8x8 cells of the frame.

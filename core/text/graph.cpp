@@ -13,7 +13,7 @@ constexpr int64_t kEnergyUnit = 256;
 constexpr int64_t kCentroidUnit = 256;
 
 bool isKept(const objects::Objects& objects, const graph::Arc& arc) {
-  return objects.regionGroup[arc.a - 1u] == objects.regionGroup[arc.b - 1u];
+  return objects.regionGroup[arc.a.index()] == objects.regionGroup[arc.b.index()];
 }
 
 void appendTerms(std::string& out, const objects::ArcEnergy& energy) {
@@ -77,7 +77,7 @@ void appendRegion(std::string& out, const objects::Objects& objects, size_t inde
   const graph::Region& region = objects.motion->graph->regions[index];
   const motion::RegionMotion& motion = objects.motion->regions[index];
   out += "{\"id\":";
-  appendUnsigned(out, index + 1);
+  appendUnsigned(out, segmentation::RegionLabel::ofIndex(index).number());
   out += ',';
   appendBox(out, map.box(region.box));
   out += ',';
@@ -104,9 +104,9 @@ void appendArc(std::string& out, const objects::Objects& objects, size_t index) 
   const graph::Arc& arc = objects.motion->graph->arcs[index];
   const objects::ArcEnergy& energy = objects.arcs[index];
   out += '{';
-  appendNumber(out, "a", arc.a);
+  appendNumber(out, "a", arc.a.number());
   out += ',';
-  appendNumber(out, "b", arc.b);
+  appendNumber(out, "b", arc.b.number());
   out += ',';
   appendNumber(out, "length", arc.borderPx);
   out += ',';

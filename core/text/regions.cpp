@@ -45,7 +45,7 @@ void appendRegions(std::string& out, const RegionSources& sources, const FrameSt
     const bool hasObject = sources.objects && i < sources.objects->regionObject.size();
     appendUnsigned(out, stamp.number);
     out += ',';
-    appendUnsigned(out, i + 1);
+    appendUnsigned(out, segmentation::RegionLabel::ofIndex(i).number());
     appendGeometry(out, graph.regions[i], map);
     appendMotion(out, hasMotion ? sources.motion->regions[i] : motion::RegionMotion{}, map);
     out += ',';

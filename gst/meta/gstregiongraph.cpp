@@ -195,7 +195,7 @@ gboolean gst_region_graph_meta_get_region(GstRegionGraphMeta* meta, guint index,
   const auto& regions = resultOf<rg::graph::Graph>(meta).regions;
   if (index >= regions.size()) return FALSE;
   const rg::graph::Region& from = regions[index];
-  *region = {index + 1,
+  *region = {rg::segmentation::RegionLabel::ofIndex(index).number(),
              from.areaPx,
              publicBox(from.box),
              from.centroidX / 256.0,
@@ -216,7 +216,7 @@ gboolean gst_region_graph_meta_get_arc(GstRegionGraphMeta* meta, guint index, Gs
   if (index >= arcs.size()) return FALSE;
   const rg::graph::Arc& from = arcs[index];
   const double contrast = from.borderPx ? static_cast<double>(from.contrast) / from.borderPx : 0.0;
-  *arc = {from.a, from.b, from.borderPx, contrast, {}};
+  *arc = {from.a.number(), from.b.number(), from.borderPx, contrast, {}};
   return TRUE;
 }
 

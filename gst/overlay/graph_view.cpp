@@ -27,18 +27,20 @@ Point centreOf(const graph::Region& region, const FrameMap& map) {
 }
 
 /// The object of a label, 0 = none.
-uint64_t objectOf(uint16_t label, const Scene& scene) {
-  const bool isKnown = scene.objects && label >= 1 && label <= scene.objects->regionObject.size();
-  return isKnown ? scene.objects->regionObject[label - 1u] : 0;
+uint64_t objectOf(segmentation::RegionLabel label, const Scene& scene) {
+  const bool isKnown = scene.objects && label && label.index() < scene.objects->regionObject.size();
+  return isKnown ? scene.objects->regionObject[label.index()] : 0;
 }
 
 void drawArcs(const Scene& scene, const FrameMap& map, Canvas& canvas) {
   const auto& regions = scene.graph->regions;
   for (const graph::Arc& arc : scene.graph->arcs) {
-    if (arc.a == 0 || arc.b == 0 || arc.a > regions.size() || arc.b > regions.size()) continue;
+    if (!arc.a || !arc.b || arc.a.index() >= regions.size() || arc.b.index() >= regions.size())
+      continue;
     const uint64_t object = objectOf(arc.a, scene);
     const bool isWithin = object != 0 && object == objectOf(arc.b, scene);
-    const Point ends[] = {centreOf(regions[arc.a - 1u], map), centreOf(regions[arc.b - 1u], map)};
+    const Point ends[] = {centreOf(regions[arc.a.index()], map),
+                          centreOf(regions[arc.b.index()], map)};
     canvas.path(ends, isWithin ? colourOf(object) : kBetweenObjects, Ends::Open);
   }
 }
@@ -48,7 +50,7 @@ void drawNodes(const Scene& scene, const FrameMap& map, Canvas& canvas) {
   for (size_t i = 0; i < scene.graph->regions.size(); ++i) {
     const graph::Region& region = scene.graph->regions[i];
     const auto side = static_cast<int>(integerSqrt(static_cast<uint64_t>(map.area(region.areaPx))));
-    const uint64_t object = objectOf(static_cast<uint16_t>(i + 1), scene);
+    const uint64_t object = objectOf(segmentation::RegionLabel::ofIndex(i), scene);
     canvas.disc(centreOf(region, map), std::clamp(side / 8, least, 3 * least), region.colour,
                 object != 0 ? colourOf(object) : kBetweenObjects);
   }

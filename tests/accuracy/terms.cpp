@@ -89,7 +89,7 @@ struct Trial {
     Counts& counts = means.arcs;
     if (objects->arcs.empty()) return;
     for (const graph::Arc& arc : motion->graph->arcs) {
-      const size_t a = arc.a - 1u, b = arc.b - 1u;
+      const size_t a = arc.a.index(), b = arc.b.index();
       if (owners[a] == kMixed || owners[b] == kMixed) continue;
       const bool isKept = objects->regionGroup[a] == objects->regionGroup[b];
       if (owners[a] == owners[b]) {

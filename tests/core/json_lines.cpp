@@ -70,7 +70,8 @@ objects::Objects makeGraph(uint32_t areaPx, int32_t motion, int64_t energy) {
   graph->regions = {{areaPx, {0, 0, 12, 30}, 1500, 3900, {1, 2, 255}},
                     {areaPx, {12, 0, 1, 1}, 3100, 0, {}},
                     {areaPx, {20, 20, 300, 220}, 43000, 33000, {9, 9, 9}}};
-  graph->arcs = {{1, 2, 1, 255}, {2, 3, areaPx, areaPx}};
+  const auto label = segmentation::RegionLabel::ofNumber;
+  graph->arcs = {{label(1), label(2), 1, 255}, {label(2), label(3), areaPx, areaPx}};
   auto regions = std::make_shared<motion::Motion>();
   regions->graph = graph;
   regions->regions = {

@@ -49,9 +49,10 @@ std::shared_ptr<const graph::Graph> randomGraph(Size size, Bytes& bytes) {
                               bytes.take<int32_t>() / 256,
                               bytes.take<int32_t>() / 256,
                               {bytes.take(), bytes.take(), bytes.take()}});
-  for (uint16_t a = 1; a < graph->regions.size(); ++a)
-    graph->arcs.push_back(
-        {a, static_cast<uint16_t>(a + 1), bytes.between(1u, UINT32_MAX), bytes.take<uint32_t>()});
+  for (size_t b = 1; b < graph->regions.size(); ++b)
+    graph->arcs.push_back({segmentation::RegionLabel::ofIndex(b - 1),
+                           segmentation::RegionLabel::ofIndex(b), bytes.between(1u, UINT32_MAX),
+                           bytes.take<uint32_t>()});
   return graph;
 }
 

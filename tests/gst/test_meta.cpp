@@ -19,7 +19,8 @@ std::shared_ptr<graph::Graph> twoRegions() {
   graph->status = Status::Ok;
   graph->regions = {{12, {0, 0, 4, 3}, 384, 256, {1, 2, 3}},
                     {20, {4, 0, 4, 4}, 1408, 384, {4, 5, 6}}};
-  graph->arcs = {{1, 2, 4, 10}};
+  graph->arcs = {
+      {segmentation::RegionLabel::ofIndex(0), segmentation::RegionLabel::ofIndex(1), 4, 10}};
   return graph;
 }
 

@@ -76,8 +76,8 @@ void tellGraph(std::ostream& out, const graph::Graph& graph) {
     sum.addBox(region.box);
   }
   for (const graph::Arc& arc : graph.arcs) {
-    sum.add(arc.a);
-    sum.add(arc.b);
+    sum.add(arc.a.number());
+    sum.add(arc.b.number());
     sum.add(arc.borderPx);
   }
   out << graph.regions.size() << " regions " << graph.arcs.size() << " arcs " << sum.value()

@@ -62,7 +62,8 @@ inline uint64_t digestOf(const graph::Graph& result) {
                             static_cast<int>(region.areaPx), int{region.colour.red}})
       digest.add(value);
   for (const graph::Arc& arc : result.arcs)
-    for (const uint32_t value : {uint32_t{arc.a}, uint32_t{arc.b}, arc.borderPx, arc.contrast})
+    for (const uint32_t value :
+         {uint32_t{arc.a.number()}, uint32_t{arc.b.number()}, arc.borderPx, arc.contrast})
       digest.add(value);
   for (const Run& run : result.runs.list)
     for (const uint16_t value : {run.y, run.begin, run.end}) digest.add(value);

@@ -60,7 +60,8 @@ inline std::shared_ptr<graph::Graph> graph(Size size) {
        128 * (3 * half - 1),
        128 * (size.height - 1),
        {0, 0, 255}}};
-  result->arcs = {{1, 2, static_cast<uint32_t>(size.height), 255}};
+  result->arcs = {{segmentation::RegionLabel::ofIndex(0), segmentation::RegionLabel::ofIndex(1),
+                   static_cast<uint32_t>(size.height), 255}};
   return result;
 }
 

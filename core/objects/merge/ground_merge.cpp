@@ -24,7 +24,7 @@ void listArcs(const graph::Graph& graph, std::span<const ArcEnergy> arcs, const 
   s.arcs.reserve(graph.arcs.size() + ground);
   for (size_t i = 0; i < graph.arcs.size(); ++i) {
     const auto [low, high] =
-        std::minmax(s.nodeOf[graph.arcs[i].a - 1u], s.nodeOf[graph.arcs[i].b - 1u]);
+        std::minmax(s.nodeOf[graph.arcs[i].a.index()], s.nodeOf[graph.arcs[i].b.index()]);
     if (low != high) s.arcs.push_back({low, high, arcs[i].weight()});
   }
   for (size_t r = 0; r < ties.isOpen.size(); ++r)

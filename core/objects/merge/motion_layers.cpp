@@ -82,7 +82,7 @@ void sortLinks(std::vector<LayerScratch::Link>& links) {
 void linkRegions(const motion::Motion& trends, std::span<const uint32_t> groupOf, LayerScratch& s) {
   s.links.clear();
   for (const graph::Arc& arc : trends.graph->arcs) {
-    const uint32_t a = arc.a - 1u, b = arc.b - 1u;
+    const uint32_t a = arc.a.index(), b = arc.b.index();
     if (groupOf[a] != groupOf[b]) continue;
     const motion::RegionMotion &v = trends.regions[a], &w = trends.regions[b];
     const int64_t dx = v.dx - w.dx, dy = v.dy - w.dy;
@@ -98,7 +98,7 @@ void linkRegions(const motion::Motion& trends, std::span<const uint32_t> groupOf
 void linkLayers(const graph::Graph& graph, LayerScratch& s) {
   s.links.clear();
   for (const graph::Arc& arc : graph.arcs) {
-    const uint32_t a = rootOf(s.parent, arc.a - 1u), b = rootOf(s.parent, arc.b - 1u);
+    const uint32_t a = rootOf(s.parent, arc.a.index()), b = rootOf(s.parent, arc.b.index());
     if (a != b) s.links.push_back({arc.borderPx, std::min(a, b), std::max(a, b)});
   }
   std::sort(s.links.begin(), s.links.end(), [](const auto& p, const auto& q) {

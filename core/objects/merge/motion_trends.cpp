@@ -30,7 +30,8 @@ MotionTrend trendBefore(std::span<const Run> runs, const motion::RegionMotion& n
     const uint16_t* row = ids.row(y);
     for (int x = run.begin - shift.x; x < run.end - shift.x; x += kStep) {
       if (x < 0 || x >= ids.width() || row[x] == segmentation::kNoRegion) continue;
-      const MotionTrend& trend = memory.before[row[x] - 1u];
+      const auto label = segmentation::RegionLabel::ofNumber(row[x]);
+      const MotionTrend& trend = memory.before[label.index()];
       const int64_t dx = trend.dx - now.dx, dy = trend.dy - now.dy;
       if (dx * dx + dy * dy > kAlike * kAlike) continue;
       weight += trend.weight;

@@ -129,7 +129,7 @@ void weighArcs(const motion::Motion& motion, std::span<const uint32_t> predicted
   energies.clear();
   energies.reserve(graph.arcs.size());
   for (const graph::Arc& arc : graph.arcs) {
-    const uint32_t s = arc.a - 1u, t = arc.b - 1u;
+    const uint32_t s = arc.a.index(), t = arc.b.index();
     const motion::RegionMotion &v = motion.regions[s], &u = motion.regions[t];
     const int64_t dx = v.dx - u.dx, dy = v.dy - u.dy;
     const int64_t excess =
@@ -162,7 +162,7 @@ void listArcs(const graph::Graph& graph, std::span<const ArcEnergy> energies,
   arcs.clear();
   arcs.reserve(graph.arcs.size());
   for (size_t i = 0; i < graph.arcs.size(); ++i)
-    arcs.push_back({graph.arcs[i].a - 1u, graph.arcs[i].b - 1u, energies[i].weight()});
+    arcs.push_back({graph.arcs[i].a.index(), graph.arcs[i].b.index(), energies[i].weight()});
 }
 
 int64_t keptWeight(std::span<const WeightedArc> arcs, std::span<const uint32_t> groupOf) {

@@ -21,6 +21,7 @@ constexpr int64_t kNoiseGain = 1;
 // of one of 1920x1080. Beyond it, rows are like those beside them.
 constexpr uint64_t kMostCompared = uint64_t{1} << 19;
 
+using segmentation::RegionLabel;
 using Sums = OwnMotionScratch::Sums;
 using Trial = OwnMotionScratch::Trial;
 
@@ -83,7 +84,8 @@ void forCovered(const Inputs& in, const std::vector<OwnMotion>& own, OwnMotionSc
         const int first = std::max(run->begin - shift.x, 0);
         const int last = std::min(run->end - shift.x, graph.size.width);
         if (first < last)
-          visit(s.hidden.row(run->y - shift.y) + first, last - first, static_cast<uint16_t>(i + 1));
+          visit(s.hidden.row(run->y - shift.y) + first, last - first,
+                RegionLabel::ofIndex(i).number());
       }
     }
   });
@@ -152,19 +154,19 @@ int64_t gainOfAll(const Trial& trial, int height, int64_t deviations, const OwnM
 /// What holds each region to what moves, and which of those has the longest border with it.
 void lookAround(const graph::Graph& graph, std::span<const ArcEnergy> arcs, OwnMotionScratch& s) {
   s.around.assign(s.moves.size(), {});
-  const auto see = [&](uint32_t region, uint32_t other, uint32_t borderPx, int64_t hold) {
-    OwnMotionScratch::Surroundings& around = s.around[region];
-    const bool isMoving = s.moves[other] != 0;
+  const auto see = [&](RegionLabel region, RegionLabel other, uint32_t borderPx, int64_t hold) {
+    OwnMotionScratch::Surroundings& around = s.around[region.index()];
+    const bool isMoving = s.moves[other.index()] != 0;
     around.hold += isMoving ? hold : -hold;
     if (!isMoving || borderPx <= around.longest) return;
     around.longest = borderPx;
-    around.neighbour = other + 1;
+    around.neighbour = other;
   };
   for (size_t i = 0; i < arcs.size(); ++i) {
     const graph::Arc& arc = graph.arcs[i];
     const int64_t hold = arcs[i].border + arcs[i].arc;
-    see(arc.a - 1u, arc.b - 1u, arc.borderPx, hold);
-    see(arc.b - 1u, arc.a - 1u, arc.borderPx, hold);
+    see(arc.a, arc.b, arc.borderPx, hold);
+    see(arc.b, arc.a, arc.borderPx, hold);
   }
 }
 
@@ -235,8 +237,8 @@ void findOwnMotion(const motion::Motion& motion, ImageView<const uint8_t> previo
     lookAround(*motion.graph, rules.arcs, s);
     s.trials.assign(count, {});
     for (size_t i = 0; i < count; ++i)
-      if (s.moves[i] == 0 && s.around[i].neighbour != 0)
-        s.trials[i].shift = own[s.around[i].neighbour - 1].shift;
+      if (const RegionLabel neighbour = s.around[i].neighbour; s.moves[i] == 0 && neighbour)
+        s.trials[i].shift = own[neighbour.index()].shift;
     if (!triesAny(s)) return;
     measure(in, own, s);
     judge(in, kNoiseGain, s, own);

@@ -59,9 +59,9 @@ struct OwnMotionScratch {
   std::vector<uint8_t> moves;  ///< Of each region, the guess.
   std::vector<Trial> trials;
   struct Surroundings {
-    int64_t hold = 0;        ///< U2 and U3 of the arcs to what moves, less those to what does not.
-    uint32_t longest = 0;    ///< Of the borders with what moves, in pixels.
-    uint32_t neighbour = 0;  ///< 1 + region at that; 0 = none.
+    int64_t hold = 0;      ///< U2 and U3 of the arcs to what moves, less those to what does not.
+    uint32_t longest = 0;  ///< Of the borders with what moves, in pixels.
+    segmentation::RegionLabel neighbour;  ///< At that.
   };
   std::vector<Surroundings> around;  ///< Of each region.
   uint64_t noise = 0;                ///< Mean difference of a pixel, in 1/16 grey level.

@@ -89,6 +89,7 @@ class Comparison {
         luma_(graph_.picture->luma()),
         s_(s),
         region_(region),
+        label_(segmentation::RegionLabel::ofIndex(region)),
         shift_(s.trials[region].shift),
         box_(graph_.regions[region].box),
         isAcross_(std::abs(shift_.x) >= std::abs(shift_.y)),
@@ -127,7 +128,7 @@ class Comparison {
   void addRun(const Range& seen) {
     if (hidden_ == nullptr) return addSpan(seen.first, seen.last);
     const auto isHiding = [&](uint16_t by) {
-      return by != segmentation::kNoRegion && by != region_ + 1;
+      return by != segmentation::kNoRegion && by != label_.number();
     };
     forVisible(hidden_, seen, isHiding, [&](int first, int last) { addSpan(first, last); });
   }
@@ -154,6 +155,7 @@ class Comparison {
   ImageView<const uint8_t> luma_;
   const OwnMotionScratch& s_;
   size_t region_;
+  segmentation::RegionLabel label_;
   Point shift_;
   Box box_;
   bool isAcross_;  ///< The bands are rows.

@@ -46,14 +46,14 @@ TEST(RegionGraph, DescribesEachRegion) {
 TEST(RegionGraph, ArcsAreSortedWithLengthAndContrast) {
   const auto arcs = build(threeRegions())->arcs;
   ASSERT_EQ(arcs.size(), 3u);
-  EXPECT_EQ(arcs[0].a, 1);
-  EXPECT_EQ(arcs[0].b, 2);
+  EXPECT_EQ(arcs[0].a.number(), 1);
+  EXPECT_EQ(arcs[0].b.number(), 2);
   EXPECT_EQ(arcs[0].borderPx, 1u);
   EXPECT_EQ(arcs[0].contrast, 40u);
-  EXPECT_EQ(arcs[1].b, 3);
+  EXPECT_EQ(arcs[1].b.number(), 3);
   EXPECT_EQ(arcs[1].borderPx, 2u);
   EXPECT_EQ(arcs[1].contrast, 120u);
-  EXPECT_EQ(arcs[2].a, 2);
+  EXPECT_EQ(arcs[2].a.number(), 2);
   EXPECT_EQ(arcs[2].borderPx, 1u);
 }
 
@@ -114,8 +114,8 @@ void expectPairs(const std::vector<graph::Arc>& arcs, const segmentation::Labels
   ASSERT_EQ(arcs.size(), pairs.size());
   auto expected = pairs.begin();
   for (const graph::Arc& arc : arcs) {
-    EXPECT_EQ(arc.a, expected->first.first);
-    EXPECT_EQ(arc.b, expected->first.second);
+    EXPECT_EQ(arc.a.number(), expected->first.first);
+    EXPECT_EQ(arc.b.number(), expected->first.second);
     EXPECT_EQ(arc.borderPx, expected->second.first);
     EXPECT_EQ(arc.contrast, expected->second.second);
     ++expected;

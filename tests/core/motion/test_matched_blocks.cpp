@@ -32,11 +32,11 @@ Blocks found(const motion::MatchedBlocks& matched) {
   Blocks blocks;
   std::tuple<int, int, int> last{-1, 0, 0};
   for (const motion::MatchedPart& part : matched.parts()) {
-    const std::tuple place{int{part.label}, int{part.strip}, int{part.column}};
+    const std::tuple place{int{part.label.number()}, int{part.strip}, int{part.column}};
     EXPECT_LT(last, place);
     last = place;
     EXPECT_NE(part.blocks, 0u);
-    motion::forBlocks(part, [&](int x, int y) { blocks.insert({part.label, x, y}); });
+    motion::forBlocks(part, [&](int x, int y) { blocks.insert({part.label.number(), x, y}); });
   }
   return blocks;
 }
@@ -110,7 +110,8 @@ TEST(MatchedBlocks, OfVeryManyRegionsTheLargestAreMatched) {
   for (int i = 1; i <= kLarge; ++i) EXPECT_TRUE(labels.count(i)) << i;
   EXPECT_TRUE(labels.count(static_cast<int>(motion::mostMatched(kFrame))));
   EXPECT_FALSE(labels.count(static_cast<int>(count)));
-  EXPECT_TRUE(matched.partsOf(count).empty());
+  EXPECT_TRUE(
+      matched.partsOf(segmentation::RegionLabel::ofNumber(static_cast<uint16_t>(count))).empty());
 }
 
 }  // namespace

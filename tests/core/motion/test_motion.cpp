@@ -88,13 +88,13 @@ void expectExhaustive(Size size, uint32_t count, const LabelAt& labelAt, int rea
   for (const int threads : {1, 2}) {
     const auto motion = match(previous, current, count, labelAt, {reach, false}, threads);
     ASSERT_EQ(motion->regions.size(), count);
-    for (uint32_t id = 1; id <= count; ++id) {
+    for (size_t i = 0; i < count; ++i) {
+      const auto parts = blocks.partsOf(segmentation::RegionLabel::ofIndex(i));
       const motion::RegionMotion expected =
-          blocks.partsOf(id).empty() ? motion::RegionMotion{}
-                                     : search(*previous, *current, blocks.partsOf(id), reach);
-      EXPECT_EQ(motion->regions[id - 1].dx, expected.dx) << "region " << id;
-      EXPECT_EQ(motion->regions[id - 1].dy, expected.dy) << "region " << id;
-      EXPECT_EQ(motion->regions[id - 1].sad, expected.sad) << "region " << id;
+          parts.empty() ? motion::RegionMotion{} : search(*previous, *current, parts, reach);
+      EXPECT_EQ(motion->regions[i].dx, expected.dx) << "region " << i;
+      EXPECT_EQ(motion->regions[i].dy, expected.dy) << "region " << i;
+      EXPECT_EQ(motion->regions[i].sad, expected.sad) << "region " << i;
     }
   }
 }

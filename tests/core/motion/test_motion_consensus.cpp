@@ -6,6 +6,8 @@
 namespace rg {
 namespace {
 
+using segmentation::RegionLabel;
+
 constexpr motion::Information kSure{400 * 256, 0, 400 * 256};
 constexpr graph::Colour kGrey{90, 90, 90}, kRed{200, 40, 40};
 
@@ -15,9 +17,10 @@ graph::Graph chainOf(std::initializer_list<graph::Colour> colours) {
     graph::Region region;
     region.colour = colour;
     if (!graph.regions.empty()) {
-      const auto a = static_cast<uint16_t>(graph.regions.size());
+      const size_t count = graph.regions.size();
       const uint32_t contrast = graph.regions.back().colour == colour ? 0 : 100 * 20;
-      graph.arcs.push_back({a, static_cast<uint16_t>(a + 1), 20, contrast});
+      graph.arcs.push_back(
+          {RegionLabel::ofIndex(count - 1), RegionLabel::ofIndex(count), 20, contrast});
     }
     graph.regions.push_back(region);
   }
@@ -47,7 +50,8 @@ TEST(MotionConsensus, TheNeighbourOfOneColourCountsMost) {
 TEST(MotionConsensus, TheVectorThatMostAgreeOnCountsAndNoMeanOfAll) {
   graph::Graph graph;
   graph.regions.resize(4);
-  graph.arcs = {{1, 2, 20, 0}, {1, 3, 20, 0}, {1, 4, 20, 0}};
+  for (size_t other = 1; other < 4; ++other)
+    graph.arcs.push_back({RegionLabel::ofIndex(0), RegionLabel::ofIndex(other), 20, 0});
   const motion::SeenMotion own[] = {
       {{0, 0}, {}}, {{512, 0}, kSure}, {{500, 0}, kSure}, {{-4000, 4000}, kSure}};
   motion::MotionConsensus consensus;

@@ -84,7 +84,8 @@ TEST(MotionFit, FindsTheVectorAtTheCentroidOfATurningRegion) {
       label(now, 1, [](int x, int y) { return x >= 16 && x < 80 && y >= 16 && y < 80 ? 1 : 0; });
   motion::MatchedBlocks blocks;
   blocks.find(**graph::makeStage(contextWith(1))->process(labels, {}), Executor(1));
-  const motion::FitRegion fitted{blocks.partsOf(1), {48, 48}, 40 * motion::kFine, 64 * 64};
+  const motion::FitRegion fitted{
+      blocks.partsOf(segmentation::RegionLabel::ofIndex(0)), {48, 48}, 40 * motion::kFine, 64 * 64};
   motion::MotionFit start;
   start.at = {2 * motion::kFine, -motion::kFine};
   const motion::MotionFit fit = motion::fitMotion(fitted, {now->luma(), &previous}, start, {}, 6);
@@ -106,7 +107,8 @@ TEST(MotionFit, APriorDecidesAlongAnEdge) {
       label(now, 1, [](int x, int y) { return x > 11 && x < 52 && y > 11 && y < 52 ? 1 : 0; });
   motion::MatchedBlocks blocks;
   blocks.find(**graph::makeStage(contextWith(1))->process(labels, {}), Executor(1));
-  const motion::FitRegion fitted{blocks.partsOf(1), {32, 32}, 40 * motion::kFine, 40 * 40};
+  const motion::FitRegion fitted{
+      blocks.partsOf(segmentation::RegionLabel::ofIndex(0)), {32, 32}, 40 * motion::kFine, 40 * 40};
   motion::MotionFit start;
   start.at = {2 * motion::kFine, 0};
   const motion::MotionPrior prior{{5 * motion::kFine, motion::kFine}, 4 * 256};

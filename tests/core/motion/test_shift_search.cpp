@@ -33,8 +33,8 @@ void addPart(Size size, int column, int strip, uint64_t blocks,
     blocks &= (uint64_t{1} << (2 * rows)) - 1;
   if ((column + 1) * motion::kPartWidth > size.width) blocks &= 0x5555555555555555;
   if (blocks != 0)
-    parts.push_back(
-        {blocks, static_cast<uint16_t>(column), static_cast<uint16_t>(strip), uint16_t{1}});
+    parts.push_back({blocks, static_cast<uint16_t>(column), static_cast<uint16_t>(strip),
+                     segmentation::RegionLabel::ofIndex(0)});
 }
 
 /// In all corners of the picture and with all kinds of gaps.
@@ -158,7 +158,7 @@ TEST(ShiftSearch, TheMeanIsOfSumsHoweverLarge) {
 }
 
 TEST(ShiftSearch, BoxesLieInRunsOfBlocks) {
-  motion::MatchedPart part{0, 2, 1, 1};
+  motion::MatchedPart part{0, 2, 1, segmentation::RegionLabel::ofIndex(0)};
   for (const int row : {1, 2, 3, 4, 5, 6, 7, 8, 9, 20, 21, 22, 28, 29, 30, 31})
     part.blocks |= uint64_t{1} << (2 * row);
   part.blocks |= uint64_t{0xAA};

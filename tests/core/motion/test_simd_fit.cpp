@@ -26,7 +26,8 @@ std::vector<motion::MatchedPart> partsOf(Size size) {
       if (x + motion::kPartWidth > size.width) blocks &= 0x5555555555555555;
       if (blocks != 0)
         parts.push_back({blocks, static_cast<uint16_t>(x / motion::kPartWidth),
-                         static_cast<uint16_t>(y / motion::kPartHeight), 1});
+                         static_cast<uint16_t>(y / motion::kPartHeight),
+                         segmentation::RegionLabel::ofIndex(0)});
     }
   return parts;
 }

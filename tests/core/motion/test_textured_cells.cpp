@@ -19,7 +19,7 @@ std::vector<motion::MatchedPart> partsOver(Size size) {
   for (int strip = 0; strip < 2; ++strip)
     for (int column = 0; column < size.width / motion::kPartWidth; ++column)
       parts.push_back({strip == 0 ? ~uint64_t{0} : ~uint64_t{0} >> 4, static_cast<uint16_t>(column),
-                       static_cast<uint16_t>(strip), 1});
+                       static_cast<uint16_t>(strip), segmentation::RegionLabel::ofIndex(0)});
   return parts;
 }
 

@@ -304,7 +304,8 @@ std::vector<int64_t> answersOf(const std::shared_ptr<const Picture>& first,
       for (int x = 0; x < labels->size.width; ++x)
         answers.insert(answers.end(), {labels->ids.at(x, y), result->slots.at(x, y)});
     for (const graph::Arc& arc : graph->arcs)
-      answers.insert(answers.end(), {arc.a, arc.b, arc.borderPx, int64_t{arc.contrast}});
+      answers.insert(answers.end(),
+                     {arc.a.number(), arc.b.number(), arc.borderPx, int64_t{arc.contrast}});
     for (const motion::RegionMotion& m : motion->regions)
       answers.insert(answers.end(), {m.dx, m.dy, static_cast<int64_t>(m.sad), m.reliability});
     answers.insert(answers.end(), {result->cameraDx, result->cameraDy});

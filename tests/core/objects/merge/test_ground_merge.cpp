@@ -7,6 +7,7 @@
 namespace rg {
 namespace {
 
+using segmentation::RegionLabel;
 using testing::ElementsAre;
 
 /// Regions in a row, each with a border of 20 with the next. Those that have a gain were tried.
@@ -15,8 +16,8 @@ struct Row {
     graph.size = {512, 512};  // An arc costs as much as 32 px of border.
     graph.regions.resize(own.size());
     for (graph::Region& region : graph.regions) region.areaPx = 400;
-    for (uint16_t i = 1; i < own.size(); ++i)
-      graph.arcs.push_back({i, static_cast<uint16_t>(i + 1), 20, 0});
+    for (size_t i = 1; i < own.size(); ++i)
+      graph.arcs.push_back({RegionLabel::ofIndex(i - 1), RegionLabel::ofIndex(i), 20, 0});
     moves.assign(own.size(), 0);
   }
 

@@ -11,6 +11,7 @@
 namespace rg {
 namespace {
 
+using segmentation::RegionLabel;
 using ::testing::ElementsAre;
 
 std::vector<uint32_t> solve(uint32_t nodeCount, const std::vector<objects::WeightedArc>& arcs) {
@@ -30,10 +31,8 @@ struct Row {
     for (size_t i = 0; i < motions.size(); ++i) {
       const int x = static_cast<int>(i) * 10;
       graph->regions.push_back({100, {x, 0, 10, 10}, (x + 5) * 256, 5 * 256, {}});
-      if (i > 0) {
-        const auto label = static_cast<uint16_t>(i);
-        graph->arcs.push_back({label, static_cast<uint16_t>(label + 1), borderPx, 0});
-      }
+      if (i > 0)
+        graph->arcs.push_back({RegionLabel::ofIndex(i - 1), RegionLabel::ofIndex(i), borderPx, 0});
     }
     motion.graph = graph;
     motion.regions = motions;

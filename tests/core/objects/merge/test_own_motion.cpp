@@ -324,9 +324,10 @@ class Plainly {
       int64_t sides = 0;  // What moving gains at the borders, less what it costs.
       for (size_t n = 0; n < energies_.size(); ++n) {
         const graph::Arc& arc = motion_.graph->arcs[n];
-        if (arc.a == i + 1 || arc.b == i + 1)
-          sides += (before[static_cast<size_t>(arc.a == i + 1 ? arc.b : arc.a) - 1] != 0 ? 1 : -1) *
-                   (energies_[n].border + energies_[n].arc);
+        const uint32_t a = arc.a.index(), b = arc.b.index();
+        if (a == i || b == i)
+          sides +=
+              (before[a == i ? b : a] != 0 ? 1 : -1) * (energies_[n].border + energies_[n].arc);
       }
       const int64_t unexpected = 512 * int64_t{integerSqrt(motion_.graph->regions[i].areaPx)};
       moves_[i] = sides + own_[i].gain > unexpected;
@@ -343,8 +344,8 @@ class Plainly {
       shifts[region] = own_[other].shift;
     };
     for (const graph::Arc& arc : motion_.graph->arcs) {
-      see(arc.a - 1u, arc.b - 1u, arc.borderPx);
-      see(arc.b - 1u, arc.a - 1u, arc.borderPx);
+      see(arc.a.index(), arc.b.index(), arc.borderPx);
+      see(arc.b.index(), arc.a.index(), arc.borderPx);
     }
     return shifts;
   }
