@@ -66,15 +66,18 @@ class CpuObjectStage final : public Stage {
   void describe(const graph::Graph& graph, bool hasTime, Objects& objects);
   void nameRegions(const graph::Graph& graph, Objects& objects);
   int64_t stepTo(FrameTime time);
+  [[nodiscard]] const Track& trackAt(TrackIndex index) const {
+    return tracker_.tracks()[index.index()];
+  }
 
   Context context_;
   Tracker tracker_;
   MergeScratch mergeScratch_;
   VoteScratch voteScratch_;
   std::vector<WeightedArc> arcs_;
-  std::vector<uint32_t> expected_;  ///< Of each region 1 + the track it is predicted to be, or 0.
-  std::vector<uint32_t> regionOwner_;  ///< Of each region 1 + the track that it is, or 0.
-  std::vector<Point> shifts_;          ///< Of each track, pixels.
+  std::vector<TrackIndex> expected_;     ///< Of each region the track it is predicted to be.
+  std::vector<TrackIndex> regionOwner_;  ///< Of each region the track that it is.
+  std::vector<Point> shifts_;            ///< Of each track, pixels.
   RegionOwnerScratch ownerScratch_;
   std::vector<Group> groups_;
   std::vector<uint32_t> mainPx_;  ///< Of each group: its largest region that is expected there.
@@ -120,17 +123,16 @@ void CpuObjectStage::reset(Reset what) {
 
 /// The objects of the previous frame, moved as they are expected to, name the regions of this one.
 void CpuObjectStage::expectLabels(const graph::Graph& graph, int64_t stepNs, Objects& objects) {
-  const std::vector<Track>& tracks = tracker_.tracks();
-  expected_.assign(graph.regions.size(), 0);
+  expected_.assign(graph.regions.size(), {});
   objects.regionExpected.assign(graph.regions.size(), 0);
   if (tracker_.owner().empty() || evidence_.frame != graph.size) return;
   shifts_.clear();
   const Point camera{objects.cameraDx, objects.cameraDy};
-  for (const Track& track : tracks)
+  for (const Track& track : tracker_.tracks())
     shifts_.push_back(tracker_.expectedShift(track, camera, stepNs));
   findRegionOwners(*graph.labels, evidence_, tracker_.owner(), shifts_, ownerScratch_, expected_);
   for (size_t r = 0; r < expected_.size(); ++r)
-    if (expected_[r] != 0) objects.regionExpected[r] = tracks[expected_[r] - 1].id;
+    if (expected_[r]) objects.regionExpected[r] = trackAt(expected_[r]).id;
 }
 
 /// Regions that are expected to be one object start as one group, all others alone.
@@ -138,7 +140,7 @@ void CpuObjectStage::startGroups(std::vector<uint32_t>& groupOf) const {
   const auto tracks = static_cast<uint32_t>(tracker_.tracks().size());
   groupOf.resize(expected_.size());
   for (uint32_t r = 0; r < groupOf.size(); ++r)
-    groupOf[r] = expected_[r] != 0 ? expected_[r] : tracks + 1 + r;
+    groupOf[r] = expected_[r] ? expected_[r].index() : tracks + r;
 }
 
 void CpuObjectStage::mergeRegions(const Input& in, const Params& params, int64_t stepNs,
@@ -188,10 +190,10 @@ void CpuObjectStage::tieToGround(const graph::Graph& graph, const MergeWeights& 
   energies.clear();
   isOpen_.clear();
   for (size_t r = 0; r < own_.size(); ++r) {
-    const bool isStopped = standing_[r].track != 0;
+    const bool isStopped{standing_[r].track};
     // That it moves as the ground does says nothing against what has stopped.
     const int64_t gain = isStopped ? std::max<int64_t>(0, own_[r].gain) : own_[r].gain;
-    energies.push_back(weighGround(gain, graph.regions[r].areaPx, expected_[r] != 0, weights,
+    energies.push_back(weighGround(gain, graph.regions[r].areaPx, bool{expected_[r]}, weights,
                                    standing_[r].areaPx));
     isOpen_.push_back(own_[r].isTried() || isStopped);
     ownMotionScratch_.moves[r] |= isStopped;
@@ -204,9 +206,9 @@ void CpuObjectStage::recallStanding(const graph::Graph& graph, Objects& objects)
   findStandingTracks(tracker_.tracks(), *graph.labels, {objects.cameraDx, objects.cameraDy},
                      graph.regions, standingScratch_, standing_);
   for (size_t r = 0; r < standing_.size(); ++r) {
-    if (standing_[r].track == 0) continue;
+    if (!standing_[r].track) continue;
     expected_[r] = standing_[r].track;
-    objects.regionExpected[r] = tracker_.tracks()[standing_[r].track - 1].id;
+    objects.regionExpected[r] = trackAt(standing_[r].track).id;
   }
 }
 
@@ -293,7 +295,7 @@ void CpuObjectStage::nameRegions(const graph::Graph& graph, Objects& objects) {
                    regionOwner_);
   objects.regionObject.assign(graph.regions.size(), 0);
   for (size_t r = 0; r < regionOwner_.size(); ++r)
-    if (regionOwner_[r] != 0) objects.regionObject[r] = tracker_.tracks()[regionOwner_[r] - 1].id;
+    if (regionOwner_[r]) objects.regionObject[r] = trackAt(regionOwner_[r]).id;
 }
 
 void CpuObjectStage::gatherEvidence(const graph::Graph& graph, const Objects& objects) {
@@ -317,9 +319,9 @@ void CpuObjectStage::markKnown(const graph::Graph& graph, const Objects& objects
   mainPx_.assign(groups_.size(), 0);
   for (size_t r = 0; r < expected_.size(); ++r) {
     const uint32_t group = objects.regionGroup[r], areaPx = graph.regions[r].areaPx;
-    if (expected_[r] == 0 || areaPx <= mainPx_[group]) continue;
+    if (!expected_[r] || areaPx <= mainPx_[group]) continue;
     mainPx_[group] = areaPx;
-    isKnown[group] = Tracker::isFaithful(tracker_.tracks()[expected_[r] - 1]);
+    isKnown[group] = Tracker::isFaithful(trackAt(expected_[r]));
   }
 }
 

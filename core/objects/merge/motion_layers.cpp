@@ -20,7 +20,7 @@ using Layer = LayerScratch::Layer;
 
 /// What was two objects stays so until it is seen to move as one.
 bool areApart(const Layer& a, const Layer& b) {
-  const bool wereApart = a.expected != 0 && b.expected != 0 && a.expected != b.expected;
+  const bool wereApart = a.expected && b.expected && a.expected != b.expected;
   if (a.weight < kLeastTrust * a.areaPx || b.weight < kLeastTrust * b.areaPx) return wereApart;
   const auto mover = [](const Layer& layer) {
     return Mover{layer.momentX / layer.weight, layer.momentY / layer.weight, layer.weight};
@@ -53,7 +53,7 @@ void joinLayers(uint32_t a, uint32_t b, LayerScratch& s) {
 }
 
 /// A layer per region.
-void startLayers(const motion::Motion& trends, std::span<const uint32_t> expected,
+void startLayers(const motion::Motion& trends, std::span<const TrackIndex> expected,
                  LayerScratch& s) {
   const std::vector<graph::Region>& regions = trends.graph->regions;
   s.layers.resize(regions.size());
@@ -67,7 +67,7 @@ void startLayers(const motion::Motion& trends, std::span<const uint32_t> expecte
                    .weight = weight,
                    .momentX = weight * trends.regions[r].dx,
                    .momentY = weight * trends.regions[r].dy,
-                   .expectedPx = expected[r] != 0 ? areaPx : 0,
+                   .expectedPx = expected[r] ? areaPx : 0,
                    .expected = expected[r]};
   }
 }
@@ -87,8 +87,8 @@ void linkRegions(const motion::Motion& trends, std::span<const uint32_t> groupOf
     const motion::RegionMotion &v = trends.regions[a], &w = trends.regions[b];
     const int64_t dx = v.dx - w.dx, dy = v.dy - w.dy;
     const uint64_t drift = integerSqrt(static_cast<uint64_t>(dx * dx + dy * dy)) / kDriftStep;
-    const uint32_t p = s.layers[a].expected, q = s.layers[b].expected;
-    const uint64_t areTwo = p != 0 && q != 0 && p != q;
+    const TrackIndex p = s.layers[a].expected, q = s.layers[b].expected;
+    const uint64_t areTwo = p && q && p != q;
     s.links.push_back({areTwo << 60 | drift << 32 | (UINT32_MAX - arc.borderPx), a, b});
   }
   sortLinks(s.links);
@@ -129,7 +129,7 @@ bool moveApart(const Mover& a, const Mover& b, int64_t least) {
   return share > 0 && (dx * dx + dy * dy) * share * share >= far * far;
 }
 
-void partGroups(const motion::Motion& trends, std::span<const uint32_t> expected, LayerScratch& s,
+void partGroups(const motion::Motion& trends, std::span<const TrackIndex> expected, LayerScratch& s,
                 std::vector<uint32_t>& groupOf) {
   startLayers(trends, expected, s);
   linkRegions(trends, groupOf, s);

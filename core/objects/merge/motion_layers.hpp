@@ -11,6 +11,7 @@
 
 #include "core/base/geometry.hpp"
 #include "core/motion/motion.hpp"
+#include "core/objects/indices.hpp"
 
 #include <cstdint>
 #include <span>
@@ -38,7 +39,7 @@ struct LayerScratch {
     int64_t weight = 0;  ///< Sum of area x reliability.
     int64_t momentX = 0, momentY = 0;
     int64_t expectedPx = 0;
-    uint32_t expected = 0;  ///< The object that most of it is expected to be.
+    TrackIndex expected;  ///< What most of it is expected to be.
   };
   struct Link {
     uint64_t key = 0;
@@ -50,9 +51,9 @@ struct LayerScratch {
 };
 
 /// Replaces the groups by their parts that don't move apart, numbered by their first regions.
-/// trends: core/objects/merge/motion_trends.hpp; expected: of each region the object that it was
-/// predicted to belong to, 0 = none.
-void partGroups(const motion::Motion& trends, std::span<const uint32_t> expected,
+/// trends: core/objects/merge/motion_trends.hpp; expected: of each region the track that it is
+/// predicted to be, or none.
+void partGroups(const motion::Motion& trends, std::span<const TrackIndex> expected,
                 LayerScratch& scratch, std::vector<uint32_t>& groupOf);
 
 }  // namespace rg::objects

@@ -120,7 +120,7 @@ void improve(uint64_t mostVisits, MergeScratch& s, std::vector<uint32_t>& groupO
 
 }  // namespace
 
-void weighArcs(const motion::Motion& motion, std::span<const uint32_t> predicted,
+void weighArcs(const motion::Motion& motion, std::span<const TrackIndex> predicted,
                const MergeWeights& weights, std::vector<ArcEnergy>& energies) {
   const graph::Graph& graph = *motion.graph;
   const int64_t threshold2 = int64_t{weights.motionThreshold} * weights.motionThreshold;
@@ -137,8 +137,7 @@ void weighArcs(const motion::Motion& motion, std::span<const uint32_t> predicted
     const int64_t rootArea =
         integerSqrt(std::min(graph.regions[s].areaPx, graph.regions[t].areaPx));
     const int64_t pull = std::min(v.reliability, u.reliability) * rootArea;
-    const bool isPredicted =
-        !predicted.empty() && predicted[s] != 0 && predicted[s] == predicted[t];
+    const bool isPredicted = !predicted.empty() && predicted[s] && predicted[s] == predicted[t];
     energies.push_back(
         {.motion = weights.motion * (pull * excess / threshold2) / motion::kFullReliability,
          .border =

@@ -24,6 +24,7 @@
 #pragma once
 
 #include "core/motion/motion.hpp"
+#include "core/objects/indices.hpp"
 #include "core/objects/merge/arc_energy.hpp"
 
 #include <cstdint>
@@ -112,9 +113,9 @@ struct Group {
   int64_t sumY = 0;
 };
 
-/// What each of the graph's arcs adds to U. predicted[i]: what object region i is expected to
-/// belong to, 0 = none; an empty span = nothing is expected.
-void weighArcs(const motion::Motion& motion, std::span<const uint32_t> predicted,
+/// What each of the graph's arcs adds to U. predicted: of each region the track that it is expected
+/// to be, or none; an empty span = nothing is expected.
+void weighArcs(const motion::Motion& motion, std::span<const TrackIndex> predicted,
                const MergeWeights& weights, std::vector<ArcEnergy>& energies);
 
 inline constexpr int64_t kGainUnit = 256;

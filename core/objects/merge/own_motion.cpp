@@ -170,15 +170,15 @@ void lookAround(const graph::Graph& graph, std::span<const ArcEnergy> arcs, OwnM
   }
 }
 
-uint32_t expectedAs(const OwnMotionRules& rules, size_t region) {
-  return rules.expected.empty() ? 0 : rules.expected[region];
+TrackIndex expectedAs(const OwnMotionRules& rules, size_t region) {
+  return rules.expected.empty() ? TrackIndex() : rules.expected[region];
 }
 
 /// Whether U is less when a region moves, with its neighbours as they were guessed.
 bool isMover(const Inputs& in, size_t region, const OwnMotion& own, const OwnMotionScratch& s) {
   const int64_t area = in.motion.graph->regions[region].areaPx;
   const GroundEnergy ground =
-      weighGround(own.gain, area, expectedAs(in.rules, region) != 0, in.rules.weights);
+      weighGround(own.gain, area, bool{expectedAs(in.rules, region)}, in.rules.weights);
   return s.around[region].hold > ground.weight();
 }
 
@@ -200,9 +200,9 @@ Point ownShift(const Inputs& in, size_t region) {
   const int64_t dx = m.dx - camera.dx, dy = m.dy - camera.dy;
   const int64_t threshold = in.rules.weights.motionThreshold;
   if (dx * dx + dy * dy > threshold * threshold) return shiftBeyond(m, camera);
-  const uint32_t object = expectedAs(in.rules, region);
-  if (object == 0) return {};
-  const Point step = in.rules.steps[object - 1];
+  const TrackIndex track = expectedAs(in.rules, region);
+  if (!track) return {};
+  const Point step = in.rules.steps[track.index()];
   return {step.x - static_cast<int>(divideRounded(camera.dx, motion::kMotionUnit)),
           step.y - static_cast<int>(divideRounded(camera.dy, motion::kMotionUnit))};
 }

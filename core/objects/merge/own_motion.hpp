@@ -76,9 +76,9 @@ struct OwnMotionRules {
   std::span<const ArcEnergy> arcs;  ///< Of the graph, as weighArcs() made them.
   MergeWeights weights;  ///< Vectors that differ from the camera's by no more than the threshold
                          ///< are the camera's.
-  std::span<const uint32_t> expected;  ///< Of each region 1 + the object that it is expected to be,
-                                       ///< 0 = none. May be empty.
-  std::span<const Point> steps;        ///< Of each object, pixels, with the camera's.
+  std::span<const TrackIndex> expected;  ///< Of each region the track that it is expected to be, or
+                                         ///< none. May be empty.
+  std::span<const Point> steps;          ///< Of each track, pixels, with the camera's.
 };
 
 /// previous: the luma that `motion` was measured against. Cost: follows the pixels of the movers

@@ -66,7 +66,7 @@ bool isTrusted(const GroupGrid& e, uint16_t group) {
 }  // namespace
 
 void gather(const graph::Graph& graph, std::span<const uint32_t> groupOf,
-            std::span<const uint8_t> isBackground, std::span<const uint32_t> expectedOf,
+            std::span<const uint8_t> isBackground, std::span<const TrackIndex> expectedOf,
             GroupGrid& e) {
   layGrid(graph.size, e);
   const auto cells = static_cast<size_t>(e.grid.area());
@@ -84,7 +84,8 @@ void gather(const graph::Graph& graph, std::span<const uint32_t> groupOf,
       if (count == 0) continue;
       const size_t first = e.at(found.begin, found.y);
       std::fill_n(e.group.data() + first, count, static_cast<uint16_t>(group + 1));
-      std::fill_n(e.expected.data() + first, count, static_cast<uint16_t>(expectedOf[region]));
+      std::fill_n(e.expected.data() + first, count,
+                  static_cast<uint16_t>(expectedOf[region].number()));
       e.cellsOf[group] += static_cast<uint32_t>(count);
       if (picture) findBins(*picture, found, e);
     }

@@ -76,9 +76,9 @@ struct GroupGrid {
 };
 
 /// Samples the labels. Groups for which isBackground is set count as background. expectedOf: of
-/// each region 1 + the track that it is predicted to be, 0 = none.
+/// each region the track that it is predicted to be, or none.
 void gather(const graph::Graph& graph, std::span<const uint32_t> groupOf,
-            std::span<const uint8_t> isBackground, std::span<const uint32_t> expectedOf,
+            std::span<const uint8_t> isBackground, std::span<const TrackIndex> expectedOf,
             GroupGrid& evidence);
 
 /// Whether two groups are two things because they move differently, the more so the smaller one is

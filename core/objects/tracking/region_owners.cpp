@@ -50,11 +50,11 @@ void forLabels(const segmentation::Labels& labels, const GroupGrid& grid, const 
 
 void findRegionOwners(const segmentation::Labels& labels, const GroupGrid& grid,
                       std::span<const uint16_t> owner, std::span<const Point> shifts,
-                      RegionOwnerScratch& s, std::vector<uint32_t>& ownerOf) {
+                      RegionOwnerScratch& s, std::vector<TrackIndex>& ownerOf) {
   listParts(grid, owner, shifts.size(), s);
   s.votes.assign(ownerOf.size(), 0);
   s.mostVotes.assign(ownerOf.size(), 0);
-  std::fill(ownerOf.begin(), ownerOf.end(), 0u);
+  std::fill(ownerOf.begin(), ownerOf.end(), TrackIndex());
   for (size_t t = 0; t < shifts.size(); ++t) {
     s.seen.clear();
     for (uint32_t i = s.firstPart[t]; i < s.firstPart[t + 1]; ++i)
@@ -65,7 +65,7 @@ void findRegionOwners(const segmentation::Labels& labels, const GroupGrid& grid,
     for (const uint32_t region : s.seen) {
       if (s.votes[region] > s.mostVotes[region]) {
         s.mostVotes[region] = s.votes[region];
-        ownerOf[region] = static_cast<uint32_t>(t + 1);
+        ownerOf[region] = TrackIndex::ofIndex(t);
       }
       s.votes[region] = 0;
     }

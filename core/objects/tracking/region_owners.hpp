@@ -24,9 +24,9 @@ struct RegionOwnerScratch {
 
 /// owner: of each cell of `grid` 1 + track, 0 = none; shifts: of each track, pixels, how far its
 /// cells are moved before they are compared with `labels`; cells that leave the frame do not count.
-/// Result: of each region 1 + track, 0 = none; `ownerOf` comes with an entry per region.
+/// Result: of each region its track or none; `ownerOf` comes with an entry per region.
 void findRegionOwners(const segmentation::Labels& labels, const GroupGrid& grid,
                       std::span<const uint16_t> owner, std::span<const Point> shifts,
-                      RegionOwnerScratch& scratch, std::vector<uint32_t>& ownerOf);
+                      RegionOwnerScratch& scratch, std::vector<TrackIndex>& ownerOf);
 
 }  // namespace rg::objects

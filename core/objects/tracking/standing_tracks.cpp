@@ -69,7 +69,7 @@ void findStandingTracks(std::span<const Track> tracks, const segmentation::Label
     for (const uint32_t r : s.seen) {
       const uint32_t areaPx = std::min(s.votes[r], regions[r].areaPx);
       if (2 * areaPx >= regions[r].areaPx && areaPx > ofRegion[r].areaPx)
-        ofRegion[r] = {t + 1, areaPx};
+        ofRegion[r] = {TrackIndex::ofIndex(t), areaPx};
       s.votes[r] = 0;
     }
     s.seen.clear();

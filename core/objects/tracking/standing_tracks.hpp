@@ -19,7 +19,7 @@ namespace rg::objects {
 
 /// What a region shows of a thing that stands on the ground.
 struct StandingTrack {
-  uint32_t track = 0;   ///< 1 + track, 0 = none.
+  TrackIndex track;
   uint32_t areaPx = 0;  ///< Of the region's pixels those that have its colours.
 };
 

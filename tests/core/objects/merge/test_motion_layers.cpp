@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,9 +22,10 @@ struct Trend {
   uint16_t reliability = 200;
 };
 
-/// The groups of the regions '1', '2' … of a drawing, that start as one.
+/// The groups of the regions '1', '2' … of a drawing, that start as one. expected: numbers of
+/// tracks, 0 = none.
 std::vector<uint32_t> partsOf(const std::vector<std::string>& rows, const std::vector<Trend>& shown,
-                              std::vector<uint32_t> expected = {}) {
+                              const std::vector<uint32_t>& expected = {}) {
   const Size size{static_cast<int>(rows[0].size()) * kCell, static_cast<int>(rows.size()) * kCell};
   const auto at = [&](int x, int y) {
     const char c = rows[static_cast<size_t>(y / kCell)][static_cast<size_t>(x / kCell)];
@@ -37,10 +39,11 @@ std::vector<uint32_t> partsOf(const std::vector<std::string>& rows, const std::v
   trends.graph = *graph::makeStage(scenes::contextWith(1))->process(std::move(labels), {});
   for (const Trend& trend : shown)
     trends.regions.push_back({trend.dx * motion::kMotionUnit, 0, 0, trend.reliability});
-  expected.resize(shown.size());
+  std::vector<objects::TrackIndex> tracks(shown.size());
+  std::transform(expected.begin(), expected.end(), tracks.begin(), objects::TrackIndex::ofNumber);
   std::vector<uint32_t> groupOf(shown.size(), 0);
   objects::LayerScratch scratch;
-  objects::partGroups(trends, expected, scratch, groupOf);
+  objects::partGroups(trends, tracks, scratch, groupOf);
   return groupOf;
 }
 
@@ -82,7 +85,7 @@ TEST(MotionLayers, GroupsThatWereApartStaySo) {
   trends.regions.assign(2, {16, 0, 0, 200});
   std::vector<uint32_t> groupOf{0, 1};
   objects::LayerScratch scratch;
-  objects::partGroups(trends, std::vector<uint32_t>(2, 0), scratch, groupOf);
+  objects::partGroups(trends, std::vector<objects::TrackIndex>(2), scratch, groupOf);
   EXPECT_THAT(groupOf, ElementsAre(0, 1));
 }
 

@@ -11,6 +11,7 @@
 namespace rg {
 namespace {
 
+using objects::TrackIndex;
 using segmentation::RegionLabel;
 using ::testing::ElementsAre;
 
@@ -37,7 +38,7 @@ struct Row {
     motion.graph = graph;
     motion.regions = motions;
   }
-  std::vector<uint32_t> groups(const std::vector<uint32_t>& predicted = {}) const {
+  std::vector<uint32_t> groups(const std::vector<TrackIndex>& predicted = {}) const {
     std::vector<objects::ArcEnergy> energies;
     std::vector<objects::WeightedArc> arcs;
     objects::weighArcs(motion, predicted, {}, energies);
@@ -115,8 +116,8 @@ TEST(MrfMerge, ALongBorderOutweighsMotion) {
 TEST(MrfMerge, PredictionHoldsTogetherWhatWasOneObject) {
   const Row row({kStill, {10 * motion::kMotionUnit, 0, 0, 200}}, 2);
   EXPECT_THAT(row.groups(), ElementsAre(0, 1));
-  EXPECT_THAT(row.groups({7, 7}), ElementsAre(0, 0));
-  EXPECT_THAT(row.groups({7, 8}), ElementsAre(0, 1));
+  EXPECT_THAT(row.groups({TrackIndex::ofIndex(6), TrackIndex::ofIndex(6)}), ElementsAre(0, 0));
+  EXPECT_THAT(row.groups({TrackIndex::ofIndex(6), TrackIndex::ofIndex(7)}), ElementsAre(0, 1));
 }
 
 TEST(MrfMerge, NoNodesAndNoArcsAreFine) {

@@ -66,7 +66,8 @@ struct Found {
 };
 
 Found searchFor(const Picture& previous, std::shared_ptr<const segmentation::Labels> labels,
-                const std::vector<Point>& vectors, const std::vector<uint32_t>& expected = {},
+                const std::vector<Point>& vectors,
+                const std::vector<objects::TrackIndex>& expected = {},
                 const std::vector<Point>& steps = {}) {
   const motion::Motion motion = motionOf(std::move(labels), vectors);
   objects::OwnMotionScratch scratch;
@@ -80,7 +81,7 @@ Found searchFor(const Picture& previous, std::shared_ptr<const segmentation::Lab
 std::vector<uint8_t> moversOf(const Picture& previous,
                               std::shared_ptr<const segmentation::Labels> labels,
                               const std::vector<Point>& vectors,
-                              const std::vector<uint32_t>& expected = {},
+                              const std::vector<objects::TrackIndex>& expected = {},
                               const std::vector<Point>& steps = {}) {
   return searchFor(previous, std::move(labels), vectors, expected, steps).moves;
 }
@@ -151,7 +152,9 @@ TEST(OwnMotion, WhatIsExpectedToMoveIsTriedWithoutAVectorOfItsOwn) {
     return Box{o.x, o.y, 16, 16}.contains({x, y}) ? 2 : 1;
   });
   EXPECT_THAT(moversOf(*at(0), labels, {kCamera, kCamera}), ElementsAre(0, 0));
-  EXPECT_THAT(moversOf(*at(0), labels, {kCamera, kCamera}, {0, 1}, {{9, 1}}), ElementsAre(0, 1));
+  EXPECT_THAT(
+      moversOf(*at(0), labels, {kCamera, kCamera}, {{}, objects::TrackIndex::ofIndex(0)}, {{9, 1}}),
+      ElementsAre(0, 1));
 }
 
 TEST(OwnMotion, GroundDoesNotGoWithAnEndOfItThatMoves) {

@@ -24,7 +24,7 @@ TEST(GroupGrid, CellsSampleTheGroupsThatAreNoBackground) {
   const auto graph = *graph::makeStage(scenes::contextWith(1))->process(labels, {});
   objects::GroupGrid e;
   objects::gather(*graph, std::vector<uint32_t>{0, 1}, std::vector<uint8_t>{1, 0},
-                  std::vector<uint32_t>{0, 7}, e);
+                  std::vector{objects::TrackIndex(), objects::TrackIndex::ofIndex(6)}, e);
   EXPECT_EQ(e.stepPx, 2);
   EXPECT_EQ(e.grid, (Size{320, 240}));
   EXPECT_THAT(e.cellsOf, ElementsAre(0, 25 * 50));

@@ -9,7 +9,7 @@ namespace {
 
 using testing::ElementsAre;
 
-/// One row of labels and of owners, '.' = none.
+/// One row of labels and of owners, '.' = none. Returns the numbers of the regions' owners.
 std::vector<uint32_t> owners(const std::string& labels, const std::string& owner,
                              const std::vector<Point>& shifts) {
   segmentation::Labels regions;
@@ -27,9 +27,11 @@ std::vector<uint32_t> owners(const std::string& labels, const std::string& owner
   grid.group.assign(owner.size(), 1);
   grid.listRuns();
   objects::RegionOwnerScratch scratch;
-  std::vector<uint32_t> result(count);
+  std::vector<objects::TrackIndex> result(count);
   objects::findRegionOwners(regions, grid, ownerOfCell, shifts, scratch, result);
-  return result;
+  std::vector<uint32_t> numbers;
+  for (const objects::TrackIndex track : result) numbers.push_back(track.number());
+  return numbers;
 }
 
 TEST(RegionOwners, ARegionIsOfTheTrackThatHasMostOfIt) {

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// What the steps from regions to objects call one another's things.
+#pragma once
+
+#include "core/base/which.hpp"
+
+#include <cstdint>
+
+namespace rg::objects {
+
+/// Which of the tracker's tracks.
+using TrackIndex = Which<struct TrackKind, uint32_t>;
+
+}  // namespace rg::objects
