@@ -10,5 +10,7 @@ namespace rg::objects {
 
 /// Which of the tracker's tracks.
 using TrackIndex = Which<struct TrackKind, uint32_t>;
+/// Which of the groups that regions were merged into.
+using GroupIndex = Which<struct GroupKind, uint32_t>;
 
 }  // namespace rg::objects

@@ -6,6 +6,7 @@
 #include "core/base/memory/result_plane.hpp"
 #include "core/base/stage.hpp"
 #include "core/motion/motion.hpp"
+#include "core/objects/indices.hpp"
 #include "core/objects/merge/arc_energy.hpp"
 
 #include <cstdint>
@@ -66,11 +67,10 @@ struct Objects {
   std::vector<uint64_t> regionObject;    ///< For each region the id of its object, 0 = none.
   std::vector<uint64_t> regionExpected;  ///< For each region the object that it was predicted to
                                          ///< belong to, 0 = none.
-  std::vector<uint32_t> regionGroup;     ///< For each region the group that it was merged into.
+  std::vector<GroupIndex> regionGroup;   ///< For each region the group that it was merged into.
   std::vector<ArcEnergy> arcs;  ///< Parallel to the graph's arcs; kept where both ends are in one
                                 ///< group, broken elsewhere.
-  static constexpr uint32_t kNoGroup = UINT32_MAX;
-  uint32_t groundGroup = kNoGroup;   ///< What is background under a moving camera.
+  GroupIndex groundGroup;       ///< What is background under a moving camera.
   std::vector<GroundEnergy> ground;  ///< Of each region's arc to the ground, under a moving camera;
                                      ///< empty otherwise. Kept where the region is background.
   bool isCutShort = false;  ///< So many regions touch one that the search for the best groups was

@@ -54,7 +54,7 @@ class CpuObjectStage final : public Stage {
  private:
   void mergeRegions(const Input& in, const Params& params, int64_t stepNs, Objects& objects);
   void expectLabels(const graph::Graph& graph, int64_t stepNs, Objects& objects);
-  void startGroups(std::vector<uint32_t>& groupOf) const;
+  void startGroups();
   void recallStanding(const graph::Graph& graph, Objects& objects);
   void tieToGround(const graph::Graph& graph, const MergeWeights& weights,
                    std::vector<GroundEnergy>& energies);
@@ -75,6 +75,7 @@ class CpuObjectStage final : public Stage {
   MergeScratch mergeScratch_;
   VoteScratch voteScratch_;
   std::vector<WeightedArc> arcs_;
+  std::vector<uint32_t> groupOf_;        ///< Of each region, as the merging goes on.
   std::vector<TrackIndex> expected_;     ///< Of each region the track it is predicted to be.
   std::vector<TrackIndex> regionOwner_;  ///< Of each region the track that it is.
   std::vector<Point> shifts_;            ///< Of each track, pixels.
@@ -136,11 +137,11 @@ void CpuObjectStage::expectLabels(const graph::Graph& graph, int64_t stepNs, Obj
 }
 
 /// Regions that are expected to be one object start as one group, all others alone.
-void CpuObjectStage::startGroups(std::vector<uint32_t>& groupOf) const {
+void CpuObjectStage::startGroups() {
   const auto tracks = static_cast<uint32_t>(tracker_.tracks().size());
-  groupOf.resize(expected_.size());
-  for (uint32_t r = 0; r < groupOf.size(); ++r)
-    groupOf[r] = expected_[r] ? expected_[r].index() : tracks + r;
+  groupOf_.resize(expected_.size());
+  for (uint32_t r = 0; r < groupOf_.size(); ++r)
+    groupOf_[r] = expected_[r] ? expected_[r].index() : tracks + r;
 }
 
 void CpuObjectStage::mergeRegions(const Input& in, const Params& params, int64_t stepNs,
@@ -148,7 +149,6 @@ void CpuObjectStage::mergeRegions(const Input& in, const Params& params, int64_t
   const motion::Motion& motion = *in.motion;
   const graph::Graph& graph = *motion.graph;
   const MergeWeights weights = weightsOf(params);
-  std::vector<uint32_t>& groupOf = objects.regionGroup;
   const std::shared_ptr<const Picture> previous = std::exchange(previous_, graph.picture);
   const bool isMoving =
       graph.labels->scope == segmentation::Scope::Frame && motion.status != Status::Skipped;
@@ -164,7 +164,7 @@ void CpuObjectStage::mergeRegions(const Input& in, const Params& params, int64_t
     recallStanding(graph, objects);
   const motion::Motion& shown = isStill ? trend_ : motion;
   weighArcs(shown, expected_, weights, objects.arcs);
-  startGroups(groupOf);
+  startGroups();
   if (graph.labels->scope == segmentation::Scope::Frame) {
     own_.assign(graph.regions.size(), {});
     ownMotionScratch_.moves.assign(graph.regions.size(), 0);
@@ -174,14 +174,17 @@ void CpuObjectStage::mergeRegions(const Input& in, const Params& params, int64_t
     tieToGround(graph, weights, objects.ground);
     objects.groundGroup =
         minimiseWithGround(graph, objects.arcs, {objects.ground, isOpen_, ownMotionScratch_.moves},
-                           groundScratch_, mergeScratch_, groupOf);
+                           groundScratch_, mergeScratch_, groupOf_);
   } else {
     listArcs(graph, objects.arcs, arcs_);
-    minimise(static_cast<uint32_t>(graph.regions.size()), arcs_, mergeScratch_, groupOf);
-    partGroups(trend_, expected_, layerScratch_, groupOf);
+    minimise(static_cast<uint32_t>(graph.regions.size()), arcs_, mergeScratch_, groupOf_);
+    partGroups(trend_, expected_, layerScratch_, groupOf_);
   }
   objects.isCutShort = mergeScratch_.isCutShort;
-  describeGroups(shown, groupOf, groups_);
+  objects.regionGroup.resize(groupOf_.size());
+  std::transform(groupOf_.begin(), groupOf_.end(), objects.regionGroup.begin(),
+                 GroupIndex::ofIndex);
+  describeGroups(shown, objects.regionGroup, groups_);
   markBackground(in, objects);
 }
 
@@ -224,7 +227,7 @@ void CpuObjectStage::markSurroundings(const Input& in, const Objects& objects) {
     const uint8_t* mask = in.foreground->mask.row(y);
     for (int x = 0; x < graph.size.width; x += kStep)
       if (const auto label = segmentation::RegionLabel::ofNumber(ids[x]))
-        majority_[objects.regionGroup[label.index()]] +=
+        majority_[objects.regionGroup[label.index()].index()] +=
             mask[x] == background::kForegroundPixel ? 1 : -1;
   }
   for (size_t g = 0; g < groups_.size(); ++g) isBackground_[g] = majority_[g] < 0;
@@ -235,13 +238,13 @@ void CpuObjectStage::markBackground(const Input& in, const Objects& objects) {
   isBackground_.assign(groups_.size(), 0);
   if (in.motion->graph->labels->scope == segmentation::Scope::Areas)
     return markSurroundings(in, objects);
-  if (objects.groundGroup != Objects::kNoGroup) isBackground_[objects.groundGroup] = 1;
+  if (objects.groundGroup) isBackground_[objects.groundGroup.index()] = 1;
 }
 
 void CpuObjectStage::givePixels(const graph::Graph& graph, Objects& objects) {
   isBackgroundRegion_.resize(graph.regions.size());
   for (size_t r = 0; r < isBackgroundRegion_.size(); ++r)
-    isBackgroundRegion_[r] = isBackground_[objects.regionGroup[r]];
+    isBackgroundRegion_[r] = isBackground_[objects.regionGroup[r].index()];
   sums_.resize(tracker_.tracks().size());
   findObjectPixels(graph, isBackgroundRegion_, {evidence_, tracker_.owner()}, pixelScratch_,
                    {objects.slots, sums_});
@@ -318,7 +321,7 @@ void CpuObjectStage::markKnown(const graph::Graph& graph, const Objects& objects
   if (evidence_.showsMovers) return;
   mainPx_.assign(groups_.size(), 0);
   for (size_t r = 0; r < expected_.size(); ++r) {
-    const uint32_t group = objects.regionGroup[r], areaPx = graph.regions[r].areaPx;
+    const uint32_t group = objects.regionGroup[r].index(), areaPx = graph.regions[r].areaPx;
     if (!expected_[r] || areaPx <= mainPx_[group]) continue;
     mainPx_[group] = areaPx;
     isKnown[group] = Tracker::isFaithful(trackAt(expected_[r]));
@@ -335,7 +338,7 @@ Result<std::shared_ptr<const Objects>> CpuObjectStage::process(Input in, const P
   objects->regionExpected.clear();
   objects->regionGroup.clear();
   objects->arcs.clear();
-  objects->groundGroup = Objects::kNoGroup;
+  objects->groundGroup = {};
   objects->ground.clear();
   objects->isCutShort = false;
   objects->cameraDx = objects->cameraDy = 0;

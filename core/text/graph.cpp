@@ -91,7 +91,7 @@ void appendRegion(std::string& out, const objects::Objects& objects, size_t inde
   out += ',';
   appendReal(out, "reliability", motion.reliability, motion::kFullReliability);
   out += ',';
-  appendNumber(out, "group", objects.regionGroup[index]);
+  appendNumber(out, "group", objects.regionGroup[index].index());
   out += ",\"expected\":";
   appendUnsigned(out, objects.regionExpected[index]);
   out += ",\"object\":";

@@ -80,7 +80,8 @@ objects::Objects makeGraph(uint32_t areaPx, int32_t motion, int64_t energy) {
   objects.size = {320, 240};
   objects.status = Status::Ok;
   objects.motion = regions;
-  objects.regionGroup = {0, 0, 1};
+  const auto group = objects::GroupIndex::ofIndex;
+  objects.regionGroup = {group(0), group(0), group(1)};
   objects.regionObject = {7, 7, 0};
   objects.regionExpected = {7, 0, 0};
   objects.arcs = {{0, 256, 256, energy}, {energy, energy / 3, 256, 0}};
@@ -90,7 +91,7 @@ objects::Objects makeGraph(uint32_t areaPx, int32_t motion, int64_t energy) {
 /// The third region is ground.
 objects::Objects makeGrounded(int64_t energy) {
   objects::Objects objects = makeGraph(100, 20, 700);
-  objects.groundGroup = 1;
+  objects.groundGroup = objects::GroupIndex::ofIndex(1);
   objects.ground = {{energy, 0}, {-energy, 256}, {-energy, energy}};
   return objects;
 }

@@ -69,7 +69,7 @@ objects::Objects randomObjects(Bytes& bytes) {
                                bytes.between<uint16_t>(0, 256)});
     objects.regionObject.push_back(bytes.take<uint64_t>());
     objects.regionExpected.push_back(bytes.take<uint64_t>());
-    objects.regionGroup.push_back(bytes.between(0u, 3u));
+    objects.regionGroup.push_back(objects::GroupIndex::ofIndex(bytes.between(0u, 3u)));
   }
   for (size_t i = 0; i < motion->graph->arcs.size(); ++i) {
     objects::ArcEnergy energy;

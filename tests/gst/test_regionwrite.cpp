@@ -116,7 +116,7 @@ TEST_F(RegionWrite, WritesTheGraphWithTheEnergyOfItsArcs) {
   objects->motion = motion;
   objects->regionObject = {3, 0};
   objects->regionExpected = {3, 3};
-  objects->regionGroup = {0, 1};
+  objects->regionGroup = {objects::GroupIndex::ofIndex(0), objects::GroupIndex::ofIndex(1)};
   objects->arcs = {{512, 256, 128, 64}};
   ASSERT_TRUE(chain.pass(frame(0, objects)));
   EXPECT_NE(written().find(R"("energy":{"motion":0.00,"border":1.00,"arc":0.50,)"

@@ -193,7 +193,7 @@ std::string Story::tell(GstBuffer* buffer) {
   tellHead(out, "objects", *objects);
   Checksum sum;
   sum.addImage(objects->slots);
-  for (const uint32_t group : objects->regionGroup) sum.add(group);
+  for (const objects::GroupIndex group : objects->regionGroup) sum.add(group.index());
   out << "camera " << objects->cameraDx << ',' << objects->cameraDy << ' ' << sum.value() << '\n';
   for (const objects::Object& object : objects->objects)
     tellObject(out, object, names_.try_emplace(object.id, names_.size() + 1).first->second);

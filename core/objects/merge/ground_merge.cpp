@@ -6,8 +6,6 @@
 namespace rg::objects {
 namespace {
 
-constexpr uint32_t kNoGroup = UINT32_MAX;
-
 /// Returns the number of nodes.
 uint32_t listNodes(const GroundTies& ties, GroundScratch& s) {
   const auto ground = static_cast<uint32_t>(ties.isOpen.size()) -
@@ -33,9 +31,9 @@ void listArcs(const graph::Graph& graph, std::span<const ArcEnergy> arcs, const 
 
 }  // namespace
 
-uint32_t minimiseWithGround(const graph::Graph& graph, std::span<const ArcEnergy> arcs,
-                            const GroundTies& ties, GroundScratch& s, MergeScratch& merging,
-                            std::vector<uint32_t>& groupOf) {
+GroupIndex minimiseWithGround(const graph::Graph& graph, std::span<const ArcEnergy> arcs,
+                              const GroundTies& ties, GroundScratch& s, MergeScratch& merging,
+                              std::vector<uint32_t>& groupOf) {
   const uint32_t nodes = listNodes(ties, s), ground = nodes - 1;
   uint32_t startOfGround = 0;
   for (const uint32_t group : groupOf) startOfGround = std::max(startOfGround, group + 1);
@@ -44,12 +42,12 @@ uint32_t minimiseWithGround(const graph::Graph& graph, std::span<const ArcEnergy
     if (ties.isOpen[r] != 0 && ties.moves[r] != 0) s.groupOfNode[s.nodeOf[r]] = groupOf[r];
   listArcs(graph, arcs, ties, ground, s);
   minimise(nodes, s.arcs, merging, s.groupOfNode);
-  s.numberOf.assign(nodes, kNoGroup);
+  s.numberOf.assign(nodes, {});
   uint32_t count = 0;
   for (size_t r = 0; r < groupOf.size(); ++r) {
-    uint32_t& number = s.numberOf[s.groupOfNode[s.nodeOf[r]]];
-    if (number == kNoGroup) number = count++;
-    groupOf[r] = number;
+    GroupIndex& number = s.numberOf[s.groupOfNode[s.nodeOf[r]]];
+    if (!number) number = GroupIndex::ofIndex(count++);
+    groupOf[r] = number.index();
   }
   return s.numberOf[s.groupOfNode[ground]];
 }

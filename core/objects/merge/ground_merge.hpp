@@ -25,14 +25,14 @@ struct GroundScratch {
   std::vector<uint32_t> nodeOf;  ///< Of each region; the ground is the last node.
   std::vector<WeightedArc> arcs;
   std::vector<uint32_t> groupOfNode;
-  std::vector<uint32_t> numberOf;
+  std::vector<GroupIndex> numberOf;  ///< Of each of those groups.
 };
 
 /// arcs: of the graph, as weighArcs() made them. groupOf: a start on entry, one entry per region,
 /// where things that don't move count as the ground whatever it says. Returns the ground's group,
-/// UINT32_MAX where it has no region.
-uint32_t minimiseWithGround(const graph::Graph& graph, std::span<const ArcEnergy> arcs,
-                            const GroundTies& ties, GroundScratch& scratch, MergeScratch& merging,
-                            std::vector<uint32_t>& groupOf);
+/// none where it has no region.
+GroupIndex minimiseWithGround(const graph::Graph& graph, std::span<const ArcEnergy> arcs,
+                              const GroundTies& ties, GroundScratch& scratch, MergeScratch& merging,
+                              std::vector<uint32_t>& groupOf);
 
 }  // namespace rg::objects

@@ -14,7 +14,6 @@
 namespace rg::objects {
 namespace {
 
-constexpr uint32_t kNone = UINT32_MAX;
 constexpr int kMaxSweeps = 12;
 constexpr int kMaxRestarts = 4;
 // A thing inside another has a border of four to five times the root of its area: what clearly
@@ -42,7 +41,7 @@ void listNeighbours(uint32_t nodeCount, std::span<const WeightedArc> arcs, Merge
 }
 
 /// Where node `node` is best off: its own group, a neighbour's, or an empty one to be alone in.
-uint32_t bestGroup(uint32_t node, uint32_t emptyGroup, const std::vector<uint32_t>& groupOf,
+uint32_t bestGroup(uint32_t node, GroupIndex emptyGroup, const std::vector<uint32_t>& groupOf,
                    MergeScratch& s) {
   s.touched.clear();
   for (const WeightedArc& arc : s.arcsOf(node)) {
@@ -52,8 +51,8 @@ uint32_t bestGroup(uint32_t node, uint32_t emptyGroup, const std::vector<uint32_
   }
   uint32_t best = groupOf[node];
   int64_t most = s.pull[best];
-  if (most < 0 && emptyGroup != kNone) {
-    best = emptyGroup;
+  if (most < 0 && emptyGroup) {
+    best = emptyGroup.index();
     most = 0;
   }
   for (const uint32_t group : s.touched)
@@ -82,7 +81,8 @@ bool moveNodes(std::vector<uint32_t>& groupOf, MergeScratch& s) {
       s.isSettled[node] = 1;
       const uint32_t from = groupOf[node];
       const uint32_t free = empty.first();
-      const uint32_t to = bestGroup(node, free < nodeCount ? free : kNone, groupOf, s);
+      const GroupIndex alone = free < nodeCount ? GroupIndex::ofIndex(free) : GroupIndex();
+      const uint32_t to = bestGroup(node, alone, groupOf, s);
       if (to == from) continue;
       if (--s.groupSize[from] == 0) empty.add(from);
       ++s.groupSize[to];
@@ -192,13 +192,13 @@ void minimise(uint32_t nodeCount, std::span<const WeightedArc> arcs, MergeScratc
   splitAndNumber(arcs, scratch, groupOf);
 }
 
-void describeGroups(const motion::Motion& motion, std::span<const uint32_t> groupOf,
+void describeGroups(const motion::Motion& motion, std::span<const GroupIndex> groupOf,
                     std::vector<Group>& groups) {
   const std::vector<graph::Region>& regions = motion.graph->regions;
   groups.clear();
   for (size_t i = 0; i < groupOf.size(); ++i) {
-    if (groupOf[i] >= groups.size()) groups.resize(groupOf[i] + 1u);
-    Group& group = groups[groupOf[i]];
+    if (groupOf[i].number() > groups.size()) groups.resize(groupOf[i].number());
+    Group& group = groups[groupOf[i].index()];
     const motion::RegionMotion& m = motion.regions[i];
     const int64_t weight = int64_t{regions[i].areaPx} * m.reliability;
     group.areaPx += regions[i].areaPx;

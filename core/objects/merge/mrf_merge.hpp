@@ -152,7 +152,7 @@ void minimise(uint32_t nodeCount, std::span<const WeightedArc> arcs, MergeScratc
               std::vector<uint32_t>& groupOf);
 
 /// What the groups of a partition have in common.
-void describeGroups(const motion::Motion& motion, std::span<const uint32_t> groupOf,
+void describeGroups(const motion::Motion& motion, std::span<const GroupIndex> groupOf,
                     std::vector<Group>& groups);
 
 /// The motion that most pixels agree on: the regions vote by area and reliability for whole pixels,

@@ -65,7 +65,7 @@ bool isTrusted(const GroupGrid& e, uint16_t group) {
 
 }  // namespace
 
-void gather(const graph::Graph& graph, std::span<const uint32_t> groupOf,
+void gather(const graph::Graph& graph, std::span<const GroupIndex> groupOf,
             std::span<const uint8_t> isBackground, std::span<const TrackIndex> expectedOf,
             GroupGrid& e) {
   layGrid(graph.size, e);
@@ -76,17 +76,17 @@ void gather(const graph::Graph& graph, std::span<const uint32_t> groupOf,
   e.cellsOf.assign(isBackground.size(), 0);
   const Picture* picture = e.picture = graph.picture.get();
   for (size_t region = 0; region < groupOf.size(); ++region) {
-    const uint32_t group = groupOf[region];
-    if (isBackground[group]) continue;
+    const GroupIndex group = groupOf[region];
+    if (isBackground[group.index()]) continue;
     for (const Run& run : graph.runs.of(region)) {
       const Run found = cellsIn(e, run);
       const int count = found.end - found.begin;
       if (count == 0) continue;
       const size_t first = e.at(found.begin, found.y);
-      std::fill_n(e.group.data() + first, count, static_cast<uint16_t>(group + 1));
+      std::fill_n(e.group.data() + first, count, static_cast<uint16_t>(group.number()));
       std::fill_n(e.expected.data() + first, count,
                   static_cast<uint16_t>(expectedOf[region].number()));
-      e.cellsOf[group] += static_cast<uint32_t>(count);
+      e.cellsOf[group.index()] += static_cast<uint32_t>(count);
       if (picture) findBins(*picture, found, e);
     }
   }

@@ -77,7 +77,7 @@ struct GroupGrid {
 
 /// Samples the labels. Groups for which isBackground is set count as background. expectedOf: of
 /// each region the track that it is predicted to be, or none.
-void gather(const graph::Graph& graph, std::span<const uint32_t> groupOf,
+void gather(const graph::Graph& graph, std::span<const GroupIndex> groupOf,
             std::span<const uint8_t> isBackground, std::span<const TrackIndex> expectedOf,
             GroupGrid& evidence);
 

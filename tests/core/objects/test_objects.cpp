@@ -77,7 +77,7 @@ TEST(Objects, RegionsAreExpectedToBeTheObjectThatMovesThere) {
   EXPECT_EQ(objects->arcs[0].arc, 277 * 256 / 16 * 30 / (30 + kStep));
   EXPECT_EQ(objects->arcs[0].prediction, 2 * 256 * 18);  // √360, rounded down
   EXPECT_EQ(objects->arcs[0].motion, 0);
-  EXPECT_EQ(objects->regionGroup, (std::vector<uint32_t>{0, 0}));
+  EXPECT_EQ(objects->regionGroup, std::vector(2, objects::GroupIndex::ofIndex(0)));
 }
 
 TEST(Objects, SlowEntryFromTheBorderMakesOneObject) {

@@ -46,7 +46,7 @@ struct Row {
   std::vector<objects::OwnMotion> own;
   std::vector<uint8_t> moves;
   bool isExpected = true;
-  uint32_t ground = 0;
+  objects::GroupIndex ground;
 };
 
 objects::OwnMotion gains(int64_t units) {
@@ -56,13 +56,13 @@ objects::OwnMotion gains(int64_t units) {
 TEST(GroundMerge, WithoutRegionsTheGroundHasNoGroup) {
   Row row({});
   EXPECT_THAT(row.groups(), ElementsAre());
-  EXPECT_EQ(row.ground, UINT32_MAX);
+  EXPECT_FALSE(row.ground);
 }
 
 TEST(GroundMerge, WhatMovesIsPartedFromTheGround) {
   Row row({{}, gains(500), {}});
   EXPECT_THAT(row.groups(), ElementsAre(0, 1, 0));
-  EXPECT_EQ(row.ground, 0u);
+  EXPECT_EQ(row.ground, objects::GroupIndex::ofIndex(0));
 }
 
 TEST(GroundMerge, ItsBorderOutweighsWhatHardlyMoves) {
@@ -76,7 +76,7 @@ TEST(GroundMerge, ItsBorderOutweighsWhatHardlyMoves) {
 TEST(GroundMerge, APartThatSaysNothingGoesWithItsLongerBorder) {
   Row row({gains(500), gains(0), gains(500), gains(-5), {}});
   EXPECT_THAT(row.groups(), ElementsAre(0, 0, 0, 1, 1));
-  EXPECT_EQ(row.ground, 1u);
+  EXPECT_EQ(row.ground, objects::GroupIndex::ofIndex(1));
 }
 
 TEST(GroundMerge, WhereNoObjectIsExpectedMoreHasToMove) {
@@ -96,7 +96,7 @@ TEST(GroundMerge, WithoutTheTermOfMotionAllIsGround) {
 TEST(GroundMerge, AllMayMove) {
   Row row({gains(500), gains(500)});
   EXPECT_THAT(row.groups(), ElementsAre(0, 0));
-  EXPECT_EQ(row.ground, UINT32_MAX);
+  EXPECT_FALSE(row.ground);
 }
 
 TEST(GroundMerge, TheGuessChangesNoClearResult) {

@@ -11,6 +11,7 @@
 namespace rg {
 namespace {
 
+using objects::GroupIndex;
 using objects::TrackIndex;
 using segmentation::RegionLabel;
 using ::testing::ElementsAre;
@@ -189,7 +190,9 @@ TEST(MrfMerge, TheOrderOfTheArcsChangesNothing) {
 TEST(MrfMerge, GroupsAreMeansByAreaAndReliability) {
   Row row({{16, 0, 0, 256}, {0, 32, 0, 64}, kUnknown});
   std::vector<objects::Group> groups;
-  objects::describeGroups(row.motion, std::vector<uint32_t>{0, 0, 1}, groups);
+  objects::describeGroups(
+      row.motion,
+      std::vector{GroupIndex::ofIndex(0), GroupIndex::ofIndex(0), GroupIndex::ofIndex(1)}, groups);
   ASSERT_EQ(groups.size(), 2u);
   EXPECT_EQ(groups[0].areaPx, 200u);
   EXPECT_EQ(groups[0].box, (Box{0, 0, 20, 10}));

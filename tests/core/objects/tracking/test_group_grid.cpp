@@ -23,7 +23,9 @@ TEST(GroupGrid, CellsSampleTheGroupsThatAreNoBackground) {
   labels->status = Status::Ok;
   const auto graph = *graph::makeStage(scenes::contextWith(1))->process(labels, {});
   objects::GroupGrid e;
-  objects::gather(*graph, std::vector<uint32_t>{0, 1}, std::vector<uint8_t>{1, 0},
+  objects::gather(*graph,
+                  std::vector{objects::GroupIndex::ofIndex(0), objects::GroupIndex::ofIndex(1)},
+                  std::vector<uint8_t>{1, 0},
                   std::vector{objects::TrackIndex(), objects::TrackIndex::ofIndex(6)}, e);
   EXPECT_EQ(e.stepPx, 2);
   EXPECT_EQ(e.grid, (Size{320, 240}));

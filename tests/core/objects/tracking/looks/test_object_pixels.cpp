@@ -66,7 +66,9 @@ Found plainPixels(const graph::Graph& graph, const std::vector<uint8_t>& isBackg
 TEST(ObjectPixels, AreThoseOfTheForegroundInTheCellsOfAnObject) {
   for (const Size size : {Size{37, 9}, Size{9, 23}, Size{61, 47}, Size{640, 401}}) {
     const auto graph = graphOfNoise(size, 7);
-    const std::vector<uint32_t> groupOf{0, 0, 1, 2, 3};
+    std::vector<objects::GroupIndex> groupOf;
+    for (const size_t group : {0u, 0u, 1u, 2u, 3u})
+      groupOf.push_back(objects::GroupIndex::ofIndex(group));
     const std::vector<objects::TrackIndex> expectedOf(kRegions);
     const std::vector<uint8_t> isBackgroundGroup{0, 1, 0, 0}, isBackground{0, 0, 1, 0, 0};
     objects::GroupGrid grid;
