@@ -12,5 +12,7 @@ namespace rg::objects {
 using TrackIndex = Which<struct TrackKind, uint32_t>;
 /// Which of the groups that regions were merged into.
 using GroupIndex = Which<struct GroupKind, uint32_t>;
+/// Which of Objects::objects. Planes hold its number.
+using Slot = Which<struct ObjectKind, uint16_t>;
 
 }  // namespace rg::objects

@@ -63,7 +63,7 @@ struct Objects {
   Status status = Status::Skipped;
   std::shared_ptr<const motion::Motion> motion;
   std::vector<Object> objects;
-  ResultPlane<uint16_t> slots;           ///< For each pixel: 1 + index into `objects`, 0 = none.
+  ResultPlane<uint16_t> slots;           ///< For each pixel the number of its Slot.
   std::vector<uint64_t> regionObject;    ///< For each region the id of its object, 0 = none.
   std::vector<uint64_t> regionExpected;  ///< For each region the object that it was predicted to
                                          ///< belong to, 0 = none.

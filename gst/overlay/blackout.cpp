@@ -63,9 +63,10 @@ void blackenChroma(GstVideoFrame* frame, int component, const Image<uint8_t>& ke
 }  // namespace
 
 void markObjects(const objects::Objects& objects, Image<uint8_t>& keep) {
-  mark(objects.slots, keep, [&](uint16_t slot) {
-    return slot > 0 && slot <= objects.objects.size() &&
-           objects::isListed(objects.objects[slot - 1u].state);
+  mark(objects.slots, keep, [&](uint16_t number) {
+    const auto slot = objects::Slot::ofNumber(number);
+    return slot && slot.index() < objects.objects.size() &&
+           objects::isListed(objects.objects[slot.index()].state);
   });
 }
 

@@ -66,9 +66,10 @@ void paintLabels(const segmentation::Labels& labels, GstVideoFrame* to) {
 }
 
 void paintObjects(const objects::Objects& objects, GstVideoFrame* to) {
-  paint(objects.slots, to, [&](uint16_t slot) -> uint8_t {
-    if (slot == 0 || slot > objects.objects.size()) return 0;
-    const objects::ObjectState state = objects.objects[slot - 1].state;
+  paint(objects.slots, to, [&](uint16_t number) -> uint8_t {
+    const auto slot = objects::Slot::ofNumber(number);
+    if (!slot || slot.index() >= objects.objects.size()) return 0;
+    const objects::ObjectState state = objects.objects[slot.index()].state;
     return state == objects::ObjectState::Tracked || state == objects::ObjectState::Stopped ? kWhite
                                                                                             : 0;
   });

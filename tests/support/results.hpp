@@ -40,7 +40,7 @@ inline std::shared_ptr<objects::Objects> objects(Size size, std::vector<objects:
     const Box visible = intersect(list[i].box, boundsOf(size));
     for (int y = visible.y; y < visible.bottom(); ++y)
       for (int x = visible.x; x < visible.right(); ++x)
-        result->slots.at(x, y) = static_cast<uint16_t>(i + 1);
+        result->slots.at(x, y) = objects::Slot::ofIndex(i).number();
   }
   result->objects = std::move(list);
   return result;
