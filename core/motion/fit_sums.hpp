@@ -65,9 +65,9 @@ inline constexpr int kMostLimit = 127 * kFine;
 [[nodiscard]] FitSums sumFitPlainly(const MatchedCell& cell, ImageView<const uint8_t> luma,
                                     const PaddedLuma& previous, Point d, int limit);
 
-/// Sums of products of gradients over all pixels that have one.
+/// Sums of products of gradients over all pixels that have one, at most 2^15: 2^15 · 255² < 2^31.
 struct GradientProducts {
-  int64_t xx = 0, xy = 0, yy = 0;
+  int32_t xx = 0, xy = 0, yy = 0;
   GradientProducts& operator+=(const GradientProducts& other) {
     xx += other.xx;
     xy += other.xy;

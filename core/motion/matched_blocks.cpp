@@ -175,6 +175,7 @@ void MatchedBlocks::closeStrip(Chunk& chunk) {
 void MatchedBlocks::dropSmallest() {
   const size_t most = mostMatched(size_);
   ranks_.clear();
+  ranks_.reserve(pixels_.size());
   for (size_t i = 0; i < pixels_.size(); ++i)
     if (pixels_[i] > 0) ranks_.push_back(rankOf(i, pixels_[i]));
   if (ranks_.size() <= most) return;
