@@ -2,7 +2,10 @@
 // Many frames of several kinds of scenes through the whole chain, as fast as they go: what is in
 // use of the heap must not grow. Prints the slope for each scene; fails where it is too steep.
 //
-// usage: soak [--frames N] [--size WxH] [--scene NAME]
+// usage: soak [--frames N] [--warm-up N] [--size WxH] [--scene NAME]
+//   --frames   in all (default 20000)
+//   --warm-up  so many of them come before the first point (default: a fifth). Larger frames need
+//              longer: what a vector has grown to for one busy frame, it keeps.
 #include "core/base/pixel.hpp"
 #include "tests/fuzz/moving_scene.hpp"
 
@@ -33,6 +36,7 @@ constexpr double kMostSlope = 1.0;  // Bytes in 1000 frames.
 
 struct Options {
   int frames = 20000;
+  int warmUp = -1;  ///< A fifth.
   int width = 64, height = 48;
   std::string scene;
 };
@@ -81,9 +85,9 @@ bool run(const Kind& kind, const Options& options) {
   const Caps caps{"I420", options.width, options.height};
   const GstVideoInfo info = caps.info();
   Chain chain(kind.chain, caps);
-  // The first fifth is warm-up: two rounds of the scenes. What is in use goes up and down with the
+  // The warm-up is at least two rounds of the scenes. What is in use goes up and down with the
   // things in view, so a point is the most of a round.
-  const int warmUp = options.frames / 5;
+  const int warmUp = options.warmUp < 0 ? options.frames / 5 : options.warmUp;
   const int scenes = std::clamp(warmUp / (2 * kind.lifeFrames), 1, kMostScenes);
   const int round = scenes * kind.lifeFrames, every = std::max(1, round / kSamples);
   std::vector<std::pair<double, double>> points;
@@ -105,6 +109,11 @@ bool run(const Kind& kind, const Options& options) {
     if (i % every == 0) most = std::max(most, bytesInUse());
     if ((i - warmUp) % round == round - 1) points.emplace_back(i, std::exchange(most, 0));
   }
+  if (points.size() < 2) {
+    std::printf("%s: --frames %d is too few, %d at least\n", kind.name, options.frames,
+                warmUp + 2 * round);
+    return false;
+  }
   const double slope = 1000 * slopeOf(points);
   const bool isFlat = std::abs(slope) < kMostSlope;
   std::printf("%-8s %d frames of %dx%d: %.0f bytes in use, %+.3f bytes in 1000 frames%s\n",
@@ -122,6 +131,7 @@ int main(int argc, char** argv) {
   stress::Options options;
   for (int i = 1; i + 1 < argc; i += 2) {
     if (std::strcmp(argv[i], "--frames") == 0) options.frames = std::atoi(argv[i + 1]);
+    if (std::strcmp(argv[i], "--warm-up") == 0) options.warmUp = std::atoi(argv[i + 1]);
     if (std::strcmp(argv[i], "--scene") == 0) options.scene = argv[i + 1];
     if (std::strcmp(argv[i], "--size") == 0 &&
         std::sscanf(argv[i + 1], "%dx%d", &options.width, &options.height) != 2)
