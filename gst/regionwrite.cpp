@@ -6,6 +6,15 @@
  * Writes what the elements before it found to a file, and passes the frames on untouched. Every
  * frame's lines are written as soon as the frame arrives.
  *
+ * A thread of its own writes, so that live video never waits: where the pipeline is live, frames go
+ * on whatever becomes of the file, and those whose lines are lost are counted (drop, dropped).
+ * Elsewhere a frame waits for its lines, as it would in filesink. The end of the stream and a stop
+ * wait two seconds at most for a reader that does not read.
+ *
+ * When another program has moved the file away, the action signal "reopen" goes on with a new one
+ * of the old name. max-file-size and max-file-duration begin another file by themselves, in whole
+ * lines. Where GStreamer's own sinks are to write, take regiontext.
+ *
  * format=jsonl writes one JSON object a frame; the JSON Schema is installed as
  * gst-regiongraph/regiongraph.schema.json in the data folder. format=mot writes MOTChallenge CSV
  * (frame,id,left,top,width,height,1,-1,-1,-1), format=regions CSV with a header. format=graph
@@ -22,29 +31,30 @@
  *   srg ! prmmotion ! mrfmerge ! regionwrite location=objects.jsonl ! fakesink
  * ]|
  */
-#include "core/text/text.hpp"
 #include "gst/elements.hpp"
-#include "gst/support/capture_time.hpp"
-#include "gst/support/line_file.hpp"
-#include "gst/support/stage_filter.hpp"
+#include "gst/support/line_filter.hpp"
+#include "gst/support/line_writer.hpp"
 
+#include <algorithm>
 #include <array>
+#include <memory>
 #include <string>
+#include <utility>
 
 namespace rg {
 namespace {
 
-enum class Format : int { JsonLines, Mot, Regions, Graph };
+enum class Drop : int { Auto, True, False };
 
 GType formatType() {
   static const GEnumValue values[] = {
-      {static_cast<int>(Format::JsonLines),
+      {static_cast<int>(LineFormat::JsonLines),
        "JSON lines: one object a frame with all that is known of its objects and events", "jsonl"},
-      {static_cast<int>(Format::Mot), "MOTChallenge CSV: one line for each object of each frame",
-       "mot"},
-      {static_cast<int>(Format::Regions),
+      {static_cast<int>(LineFormat::Mot),
+       "MOTChallenge CSV: one line for each object of each frame", "mot"},
+      {static_cast<int>(LineFormat::Regions),
        "CSV with a header: one line for each region of each frame, with its motion", "regions"},
-      {static_cast<int>(Format::Graph),
+      {static_cast<int>(LineFormat::Graph),
        "JSON lines: the region graph of each frame, with the energy of each arc and why regions "
        "were merged or not",
        "graph"},
@@ -53,17 +63,36 @@ GType formatType() {
   return type;
 }
 
+GType dropType() {
+  static const GEnumValue values[] = {
+      {static_cast<int>(Drop::Auto), "as true in a live pipeline, else as false", "auto"},
+      {static_cast<int>(Drop::True),
+       "frames never wait: what can't be written is dropped and counted", "true"},
+      {static_cast<int>(Drop::False),
+       "frames wait until their lines are written; a failure ends the stream", "false"},
+      {0, nullptr, nullptr}};
+  static const GType type = registerEnum("GstRegionWriteDrop", values);
+  return type;
+}
+
 struct Settings {
   std::string location = "-";
-  Format format = Format::JsonLines;
+  LineFormat format = LineFormat::JsonLines;
   bool hasContours = false;
+  Drop drop = Drop::Auto;
+  guint64 dropped = 0;
+  bool isAppending = false;
+  guint64 mostBytes = 0;
+  guint64 mostNs = 0;
+  int mostOldFiles = 10;
 };
 
 constexpr std::array kProperties{
     property<Settings, &Settings::location>(
         "location",
-        "File to write; it is made or emptied when the element starts. - is standard output (run "
-        "gst-launch-1.0 with -q then)",
+        "File or pipe to write. A file is made, or emptied unless append is set, when the element "
+        "starts; a pipe must have a reader. Only one element or program may write to it. - is "
+        "standard output (run gst-launch-1.0 with -q then)",
         0, 0, Mutable::Ready),
     enumProperty<Settings, &Settings::format>(
         "format", "What is written; jsonl, mot and graph need mrfmerge, regions needs srg",
@@ -71,102 +100,160 @@ constexpr std::array kProperties{
     property<Settings, &Settings::hasContours>(
         "contours",
         "format=jsonl: also write each object's outline, in pixels; the lines get much longer"),
+    enumProperty<Settings, &Settings::drop>(
+        "drop",
+        "Whether frames go on when their lines can't be written in time, since more than 4 MiB "
+        "wait for a slow reader, or at all, since the disk is full or the reader has gone. Lines "
+        "are written again as soon as that works",
+        dropType),
+    property<Settings, &Settings::dropped>(
+        "dropped", "Frames since the start whose lines were not written", 0, 0, Mutable::Never),
+    property<Settings, &Settings::isAppending>(
+        "append", "Write behind what is in the file instead of emptying it at the start", 0, 0,
+        Mutable::Ready),
+    property<Settings, &Settings::mostBytes>(
+        "max-file-size",
+        "Bytes after which another file is begun; the one before becomes LOCATION.1, that "
+        "LOCATION.2 and so on. Lines are never parted. 0 = no limit",
+        0, 0, Mutable::Ready),
+    property<Settings, &Settings::mostNs>(
+        "max-file-duration",
+        "Nanoseconds of video after which another file is begun, as by max-file-size; 0 = no limit",
+        0, 0, Mutable::Ready),
+    property<Settings, &Settings::mostOldFiles>(
+        "max-files",
+        "Files that are kept beside the one that is written, where max-file-size or "
+        "max-file-duration begins others; the oldest is overwritten",
+        1, 1000, Mutable::Ready),
 };
 
-class RegionWrite final : public StageFilter {
+LineFileOptions optionsOf(const Settings& settings) {
+  LineFileOptions options;
+  options.location = settings.location;
+  if (settings.format == LineFormat::Regions) options.header = text::kRegionsHeader;
+  options.isAppending = settings.isAppending;
+  options.mostBytes = settings.mostBytes;
+  options.mostNs = static_cast<int64_t>(std::min<guint64>(settings.mostNs, G_MAXINT64));
+  options.mostOldFiles = settings.mostOldFiles;
+  return options;
+}
+
+class RegionWrite final : public LineFilter {
  public:
-  explicit RegionWrite(GstBaseTransform* element) : StageFilter(element) {
+  explicit RegionWrite(GstBaseTransform* element) : LineFilter(element) {
     gst_base_transform_set_passthrough(element, TRUE);
   }
 
-  void* settings() override { return &settings_; }
+  void* settings() override {
+    if (writer_) settings_.dropped = writer_->dropped();
+    return &settings_;
+  }
 
   bool start() override {
     const Settings settings = snapshot(settings_);
     location_ = settings.location;
     format_ = settings.format;
-    frames_ = 0;
-    auto opened = LineFile::open(location_);
-    if (!opened) {
-      GST_ELEMENT_ERROR(
-          element(), RESOURCE, OPEN_WRITE,
-          ("Could not open \"%s\" for writing: %s.", location_.c_str(),
-           opened.error().message.c_str()),
-          ("The property location must name a file that can be made or overwritten."));
-      return false;
-    }
-    file_ = *std::move(opened);
-    return format_ != Format::Regions || write(text::kRegionsHeader) == GST_FLOW_OK;
+    hasToldCrowd_ = hasToldFailure_ = false;
+    restartCount();
+    auto sink = LineFile::open(optionsOf(settings));
+    if (!sink) return postOpenError(sink.error());
+    auto writer = LineWriter::start(*std::move(sink));
+    if (!writer) return postOpenError(writer.error());
+    const std::lock_guard lock(settingsMutex());
+    writer_ = *std::move(writer);
+    settings_.dropped = 0;
+    return true;
   }
 
   void stop() override {
-    if (const auto error = file_.close()) postWriteError(*error);
+    if (!writer_) return;
+    writer_->stop();
+    tellLosses();
+    const std::lock_guard lock(settingsMutex());
+    settings_.dropped = writer_->dropped();
+    writer_.reset();
+  }
+
+  /// The action signal "reopen", on any thread.
+  void act() override {
+    const std::lock_guard lock(settingsMutex());
+    if (writer_) writer_->reopen();
+  }
+
+  void endOfStream() override {
+    writer_->drain([&] { return isFlushing(); });
+    tellLosses();
   }
 
   GstFlowReturn process(const FilterFrame& frame) override {
-    const text::FrameStamp stamp = stampOf(frame);
+    if (frame.isFirst) isLive_ = isUpstreamLive();
+    const Settings settings = snapshot(settings_);
     lines_.clear();
-    const GstFlowReturn flow =
-        format_ == Format::Regions ? appendRegions(frame, stamp) : appendObjects(frame, stamp);
-    return flow == GST_FLOW_OK ? write(lines_) : flow;
+    const GstFlowReturn flow = appendLines(lines_, frame, {format_, settings.hasContours});
+    if (flow != GST_FLOW_OK || lines_.empty()) return flow;
+    mayDrop_ = settings.drop == Drop::True || (settings.drop == Drop::Auto && isLive_);
+    writer_->push(lines_, frame.time.ns, mayDrop_ ? Crowded::Drop : Crowded::Wait,
+                  [&] { return isFlushing(); });
+    return tellLosses();
   }
 
  private:
-  [[nodiscard]] text::FrameStamp stampOf(const FilterFrame& frame) {
-    text::FrameStamp stamp;
-    stamp.number = ++frames_;
-    stamp.size = {GST_VIDEO_INFO_WIDTH(&frame.info), GST_VIDEO_INFO_HEIGHT(&frame.info)};
-    if (GST_BUFFER_PTS_IS_VALID(frame.buffer)) stamp.ptsNs = GST_BUFFER_PTS(frame.buffer);
-    stamp.utcNs = captureTimeOf(frame.buffer);
-    return stamp;
+  [[nodiscard]] bool isFlushing() const { return GST_PAD_IS_FLUSHING(element()->srcpad) != FALSE; }
+
+  [[nodiscard]] bool isUpstreamLive() const {
+    GstQuery* query = gst_query_new_latency();
+    gboolean isLive = FALSE;
+    if (gst_pad_peer_query(GST_BASE_TRANSFORM_SINK_PAD(element()), query))
+      gst_query_parse_latency(query, &isLive, nullptr, nullptr);
+    gst_query_unref(query);
+    return isLive != FALSE;
   }
 
-  GstFlowReturn appendRegions(const FilterFrame& frame, const text::FrameStamp& stamp) {
-    const auto upstream = require<graph::Graph>(frame, "srg");
-    if (!upstream.result) return upstream.flow;
-    const auto motion = findResult<motion::Motion>(frame.buffer);
-    const auto objects = findResult<objects::Objects>(frame.buffer);
-    text::appendRegions(lines_, {upstream.result.get(), motion.get(), objects.get()}, stamp);
-    return GST_FLOW_OK;
-  }
-
-  GstFlowReturn appendObjects(const FilterFrame& frame, const text::FrameStamp& stamp) {
-    const auto upstream = require<objects::Objects>(frame, "mrfmerge");
-    if (upstream.flow != GST_FLOW_OK) return upstream.flow;
-    const objects::Objects& objects = upstream.result ? *upstream.result : skipped_;
-    if (format_ == Format::Mot) {
-      text::appendMot(lines_, objects, stamp);
-    } else if (format_ == Format::Graph) {
-      text::appendGraph(lines_, objects, stamp);
-    } else {
-      const bool hasContours = snapshot(settings_.hasContours);
-      text::appendJson(lines_, objects, stamp,
-                       hasContours ? text::Contours::Write : text::Contours::Omit);
+  /// What may drop tells it once; elsewhere a line that is not written is an error.
+  GstFlowReturn tellLosses() {
+    if (const auto complaint = writer_->takeComplaint())
+      postWriteWarning("Writing to \"" + location_ + "\": " + complaint->message + ".");
+    if (const auto failure = writer_->takeFailure()) {
+      if (!mayDrop_) return postWriteError(*failure);
+      if (!std::exchange(hasToldFailure_, true))
+        postWriteWarning("Could not write to \"" + location_ + "\": " + failure->message +
+                         ". Lines are dropped until that works again; the property dropped counts "
+                         "their frames.");
     }
+    if (writer_->wasCrowded() && !std::exchange(hasToldCrowd_, true))
+      postWriteWarning("Whoever reads \"" + location_ +
+                       "\" does not keep up: lines are dropped, and the property dropped counts "
+                       "their frames. Read faster, or set drop=false where frames may wait.");
     return GST_FLOW_OK;
   }
 
-  GstFlowReturn write(std::string_view lines) {
-    const auto isFlushing = [&] { return GST_PAD_IS_FLUSHING(element()->srcpad) != FALSE; };
-    const auto error = file_.write(lines, isFlushing);
-    if (!error) return GST_FLOW_OK;
-    postWriteError(*error);
-    return GST_FLOW_ERROR;
+  [[nodiscard]] bool postOpenError(const Error& error) const {
+    GST_ELEMENT_ERROR(
+        element(), RESOURCE, OPEN_WRITE,
+        ("Could not open \"%s\" for writing: %s.", location_.c_str(), error.message.c_str()),
+        ("The property location must name a file that can be made or overwritten."));
+    return false;
   }
 
-  void postWriteError(const Error& error) const {
+  GstFlowReturn postWriteError(const Error& error) const {
     GST_ELEMENT_ERROR(element(), RESOURCE, WRITE,
                       ("Could not write to \"%s\": %s.", location_.c_str(), error.message.c_str()),
                       (nullptr));
+    return GST_FLOW_ERROR;
+  }
+
+  void postWriteWarning(const std::string& text) const {
+    GST_ELEMENT_WARNING(element(), RESOURCE, WRITE, ("%s", text.c_str()), (nullptr));
   }
 
   Settings settings_;
   std::string location_;
-  Format format_ = Format::JsonLines;
-  LineFile file_;
-  uint64_t frames_ = 0;
+  LineFormat format_ = LineFormat::JsonLines;
+  std::unique_ptr<LineWriter> writer_;  ///< Changes with the settings' mutex held.
   std::string lines_;
-  const objects::Objects skipped_;  ///< Written for a frame without a result.
+  bool isLive_ = false;
+  bool mayDrop_ = false;
+  bool hasToldCrowd_ = false, hasToldFailure_ = false;  ///< Since the start.
 };
 
 const Settings kDefaults;
@@ -182,7 +269,8 @@ const FilterDescription kDescription{
         "or MOTChallenge CSV, regions with their motion as CSV, or the region graph with the "
         "energy "
         "of each arc as JSON lines. Each frame's lines are written at once; frames count from 1. "
-        "Needs mrfmerge, for regions srg",
+        "Live video never waits for the file (see drop). The action signal reopen goes on with a "
+        "new file after another program has moved the old one. Needs mrfmerge, for regions srg",
     .example =
         "gst-launch-1.0 -q videotestsrc pattern=ball num-buffers=100 ! "
         "video/x-raw,format=I420 ! bgremove ! hsvsegment ! srg ! prmmotion ! mrfmerge ! "
@@ -191,6 +279,7 @@ const FilterDescription kDescription{
     .properties = kProperties,
     .defaults = &kDefaults,
     .create = [](GstBaseTransform* element) -> Filter* { return new RegionWrite(element); },
+    .action = "reopen",
 };
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "gst/support/guarded.hpp"
 
 #include <algorithm>
+#include <tuple>
 #include <utility>
 
 #define RG_PIXEL_FORMATS "{ BGRx, RGBx, BGRA, RGBA, BGR, RGB, NV12, I420, GRAY8 }"
@@ -226,7 +227,9 @@ struct FilterShell {
   static GstFlowReturn generateOutput(GstBaseTransform* element, GstBuffer** out) {
     const GstFlowReturn flow = GST_BASE_TRANSFORM_CLASS(parentClass)->generate_output(element, out);
     return withFilter(element, GST_FLOW_ERROR, [&](Filter& filter) {
-      if (flow != GST_FLOW_OK || filter.latency() == 0) return flow;
+      if (flow != GST_FLOW_OK) return flow;
+      if (*out) *out = filter.render(*out);
+      if (filter.latency() == 0) return flow;
       return orAnew(filter, [&] {
         if (*out) filter.hold(std::exchange(*out, nullptr));
         *out = filter.release(false);
@@ -254,12 +257,44 @@ struct FilterShell {
   /// Buffers go on as they came, so what upstream may allocate is for downstream to say; those that
   /// are held here come on top.
   static gboolean proposeAllocation(GstBaseTransform* element, GstQuery*, GstQuery* query) {
+    if (classOf(element)->description->srcCaps) {
+      gst_query_add_allocation_meta(query, GST_VIDEO_META_API_TYPE, nullptr);
+      return TRUE;
+    }
     const gboolean isHandled = gst_pad_peer_query(GST_BASE_TRANSFORM_SRC_PAD(element), query);
     Filter* filter = filterOf(element);
     if (isHandled && filter && filter->latency() > 0)
       raisePools(query, static_cast<guint>(std::min(framesIn(filter->latency(), filter->info_),
                                                     filter->mostHeld())));
     return isHandled;
+  }
+
+  static GstCaps* transformCaps(GstBaseTransform* element, GstPadDirection from, GstCaps*,
+                                GstCaps* filter) {
+    const FilterDescription& about = *classOf(element)->description;
+    GstCaps* caps = gst_caps_from_string(from == GST_PAD_SINK ? about.srcCaps : about.caps);
+    if (!filter) return caps;
+    GstCaps* both = gst_caps_intersect_full(filter, caps, GST_CAPS_INTERSECT_FIRST);
+    gst_caps_unref(caps);
+    return both;
+  }
+
+  static void act(GstElement* element) {
+    withFilter(element, FALSE, [](Filter& filter) -> gboolean {
+      filter.act();
+      return TRUE;
+    });
+  }
+
+  static void addPadTemplates(GstElementClass* element, const FilterDescription& about) {
+    const char* const srcCaps = about.srcCaps ? about.srcCaps : about.caps;
+    for (const auto& [name, direction, text] :
+         {std::tuple{"sink", GST_PAD_SINK, about.caps}, {"src", GST_PAD_SRC, srcCaps}}) {
+      GstCaps* caps = gst_caps_from_string(text);
+      gst_element_class_add_pad_template(
+          element, gst_pad_template_new(name, direction, GST_PAD_ALWAYS, caps));
+      gst_caps_unref(caps);
+    }
   }
 
   static void initClass(gpointer klass, gpointer data) {
@@ -279,11 +314,11 @@ struct FilterShell {
     gst_element_class_set_static_metadata(element, about.longName, about.klass, about.description,
                                           "The gst-regiongraph developers");
     gst_element_class_add_static_metadata(element, "example", about.example);
-    GstCaps* caps = gst_caps_from_string(about.caps);
-    for (const auto& [name, direction] : {std::pair{"sink", GST_PAD_SINK}, {"src", GST_PAD_SRC}})
-      gst_element_class_add_pad_template(
-          element, gst_pad_template_new(name, direction, GST_PAD_ALWAYS, caps));
-    gst_caps_unref(caps);
+    addPadTemplates(element, about);
+    if (about.action)
+      g_signal_new_class_handler(about.action, G_TYPE_FROM_CLASS(klass),
+                                 static_cast<GSignalFlags>(G_SIGNAL_RUN_LAST | G_SIGNAL_ACTION),
+                                 G_CALLBACK(act), nullptr, nullptr, nullptr, G_TYPE_NONE, 0);
 
     auto* transformClass = GST_BASE_TRANSFORM_CLASS(klass);
     transformClass->start = start;
@@ -295,6 +330,7 @@ struct FilterShell {
     transformClass->generate_output = generateOutput;
     transformClass->query = query;
     transformClass->propose_allocation = proposeAllocation;
+    if (about.srcCaps) transformClass->transform_caps = transformCaps;
   }
 
   static void initInstance(GTypeInstance* instance, gpointer klass) {

@@ -27,10 +27,12 @@ struct FilterDescription {
   const char* klass;
   const char* description;
   const char* example;  ///< A launch line that runs as it stands.
-  const char* caps;     ///< Of both pads.
+  const char* caps;     ///< Of both pads, or of the sink pad.
   std::span<const Property> properties;
   const void* defaults;  ///< A fresh struct of settings.
   Filter* (*create)(GstBaseTransform* element);
+  const char* action = nullptr;   ///< Name of a signal that calls act().
+  const char* srcCaps = nullptr;  ///< Where what leaves is no video: of the source pad.
 };
 
 /// The formats whose pixels the elements read, in system memory, up to 16384 pixels a side.
@@ -71,6 +73,10 @@ class Filter {
   virtual void reset(Reset what) { (void)what; }
   virtual void endOfStream() {}
   virtual GstFlowReturn process(const FilterFrame& frame) = 0;
+  /// What leaves instead of a processed frame; takes the frame.
+  [[nodiscard]] virtual GstBuffer* render(GstBuffer* frame) { return frame; }
+  /// The action signal, on any thread.
+  virtual void act() {}
 
   /// How long frames are held back, nanoseconds; the pipeline is told. Constant while running,
   /// asked on any thread. Where it is not 0, processed frames go through hold() and leave by

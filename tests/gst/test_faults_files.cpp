@@ -164,7 +164,8 @@ TEST_F(FileLimits, TooManyOpenFilesAreTold) {
 /// Writes until the file may not grow; the signal that comes then would end the process.
 [[noreturn]] void writeBeyondTheLimit(const std::string& location) {
   signal(SIGXFSZ, SIG_DFL);
-  Chain chain(std::string(testing::kQuickStages) + " ! regionwrite location=" + location, kSmall);
+  Chain chain(std::string(testing::kQuickStages) + " ! regionwrite drop=false location=" + location,
+              kSmall);
   const Limit small(RLIMIT_FSIZE, 4096);
   GstFlowReturn flow = GST_FLOW_OK;
   for (int i = 0; flow == GST_FLOW_OK && i < 1000; ++i) flow = chain.push(busyFrame(kSmall, i));
@@ -184,7 +185,8 @@ TEST_F(FileLimitsDeathTest, AFullFileIsAnErrorInsteadOfASignal) {
 /// A disk that is full from the start ends the stream with an error; the next start writes
 /// elsewhere.
 TEST_F(FileLimits, AFullDiskIsAnErrorAndTheNextStartWrites) {
-  Chain chain(std::string(testing::kQuickStages) + " ! regionwrite location=/dev/full", kSmall);
+  Chain chain(std::string(testing::kQuickStages) + " ! regionwrite drop=false location=/dev/full",
+              kSmall);
   EXPECT_EQ(chain.push(busyFrame(kSmall, 0)), GST_FLOW_ERROR);
   EXPECT_NE(chain.complaint(GST_MESSAGE_ERROR).find("No space left"), std::string::npos);
   gst_element_set_state(chain.harness()->element, GST_STATE_NULL);

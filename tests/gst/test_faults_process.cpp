@@ -12,6 +12,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -227,6 +228,29 @@ TEST(ProcessDeathTest, FramesThatDoNotFitInMemoryAreAnError) {
   Chain chain(testing::kQuickStages, {"GRAY8", 160, 120});
   int index = 0;
   _exit(testing::showObjects(chain, index) || !chain.complaint(GST_MESSAGE_ERROR).empty() ? 0 : 1);
+}
+
+/// What can't write beside the frames says so instead of making them wait.
+[[noreturn]] void writeWithoutThreads() {
+  const rlimit none{0, 0};
+  setrlimit(RLIMIT_NPROC, &none);
+  if (getuid() == 0 && setresuid(65534, 65534, 65534) != 0) _exit(77);
+  const Chain chain("identity");
+  GstElement* element = gst_element_factory_make("regionwrite", nullptr);
+  GstBus* bus = gst_element_get_bus(chain.harness()->element);
+  gst_element_set_bus(element, bus);
+  g_object_set(element, "location", "/dev/null", nullptr);
+  const bool hasFailed =
+      gst_element_set_state(element, GST_STATE_PAUSED) == GST_STATE_CHANGE_FAILURE;
+  const testing::MessagePtr message(gst_bus_pop_filtered(bus, GST_MESSAGE_ERROR));
+  GError* error = nullptr;
+  if (message) gst_message_parse_error(message.get(), &error, nullptr);
+  _exit(hasFailed && error && std::strstr(error->message, "no thread") ? 0 : 1);
+}
+
+TEST(ProcessDeathTest, WithoutAThreadRegionwriteDoesNotStart) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  EXPECT_EXIT(writeWithoutThreads(), ::testing::ExitedWithCode(0), "");
 }
 
 TEST(ProcessDeathTest, WithoutThreadsTheFramesAreProcessed) {

@@ -36,7 +36,7 @@ class RegionWrite : public ::testing::Test {
   void TearDown() override { std::filesystem::remove_all(folder_); }
 
   [[nodiscard]] std::string line(const std::string& more = "") const {
-    return "regionwrite location=" + path_ + " " + more;
+    return "regionwrite drop=false location=" + path_ + " " + more;
   }
   [[nodiscard]] std::string written() const {
     std::ifstream file(path_, std::ios::binary);
@@ -199,7 +199,7 @@ TEST_F(RegionWrite, StartsAgainWithAnEmptyFileAndFrameOne) {
 }
 
 TEST_F(RegionWrite, PostsWhyItCouldNotWrite) {
-  Chain chain("regionwrite location=/dev/full");
+  Chain chain("regionwrite drop=false location=/dev/full");
   EXPECT_EQ(chain.push(frame(0, oneObject())), GST_FLOW_ERROR);
   const MessagePtr message = chain.message(GST_MESSAGE_ERROR);
   ASSERT_TRUE(message);
