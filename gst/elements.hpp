@@ -11,6 +11,7 @@ GType gst_region_prmmotion_get_type();
 GType gst_region_mrfmerge_get_type();
 GType gst_region_mask_get_type();
 GType gst_region_overlay_get_type();
+GType gst_region_text_get_type();
 GType gst_region_write_get_type();
 GType gst_region_track_get_type();
 
@@ -22,4 +23,5 @@ GST_ELEMENT_REGISTER_DECLARE(mrfmerge)
 GST_ELEMENT_REGISTER_DECLARE(regionmask)
 GST_ELEMENT_REGISTER_DECLARE(regionoverlay)
 GST_ELEMENT_REGISTER_DECLARE(regionwrite)
+GST_ELEMENT_REGISTER_DECLARE(regiontext)
 GST_ELEMENT_REGISTER_DECLARE(regiontrack)

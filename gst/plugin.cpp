@@ -11,6 +11,7 @@ static gboolean pluginInit(GstPlugin* plugin) {
   isComplete &= GST_ELEMENT_REGISTER(prmmotion, plugin);
   isComplete &= GST_ELEMENT_REGISTER(mrfmerge, plugin);
   isComplete &= GST_ELEMENT_REGISTER(regionmask, plugin);
+  isComplete &= GST_ELEMENT_REGISTER(regiontext, plugin);
   isComplete &= GST_ELEMENT_REGISTER(regiontrack, plugin);
   isComplete &= GST_ELEMENT_REGISTER(regionwrite, plugin);
 #ifdef REGIONGRAPH_HAS_OVERLAY

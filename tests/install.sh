@@ -25,8 +25,8 @@ sed -i "s|^prefix=.*|prefix=$target$prefix|" "$libraries/pkgconfig/gstregiongrap
 export GST_PLUGIN_PATH=$libraries/gstreamer-1.0 GST_REGISTRY=$target/registry.bin
 export LD_LIBRARY_PATH=$libraries PKG_CONFIG_PATH=$libraries/pkgconfig
 
-for element in bgremove hsvsegment srg prmmotion mrfmerge regionoverlay regionmask regionwrite \
-  regiontrack; do
+for element in bgremove hsvsegment srg prmmotion mrfmerge regionoverlay regionmask regiontext \
+  regionwrite regiontrack; do
   gst-inspect-1.0 "$element" >"$target/$element" || { echo "install: no $element" >&2; exit 1; }
 done
 
@@ -34,4 +34,4 @@ read -r -a flags <<<"$(pkg-config --cflags --libs gstregiongraph-1.0 gstreamer-a
 "${CXX:-g++}" -std=c++17 "$root/examples/read_objects.cpp" "${flags[@]}" -o "$target/reader"
 "$target/reader" "$video" >"$target/objects"
 grep -q '^frame' "$target/objects" || { echo 'install: the reader found nothing' >&2; exit 1; }
-echo "install: 9 elements, an application that read $(wc -l <"$target/objects") objects"
+echo "install: 10 elements, an application that read $(wc -l <"$target/objects") objects"

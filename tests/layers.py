@@ -24,7 +24,7 @@ FOREIGN = {  # Outside libraries that a layer must not include.
     'kernels': r'(glib|gio|gst|gobject|opencv)',
 }
 ELEMENTS = ('bgremove', 'hsvsegment', 'srg', 'prmmotion', 'mrfmerge', 'regionoverlay', 'regionmask',
-            'regionwrite', 'regiontrack')
+            'regiontext', 'regionwrite', 'regiontrack')
 SEES_ELEMENTS = ('regiontrack', 'plugin')
 MAX_FILE_LINES, MAX_FUNCTION_LINES, MAX_COLUMNS = 400, 50, 100
 MAX_FOLDER_FILES = 25  # Of core.

@@ -34,6 +34,7 @@ constexpr const char* kReaders[] = {
     "regionwrite location=/dev/null contours=true",
     "regionwrite location=/dev/null format=graph",
     "regionwrite location=/dev/null format=regions",
+    "regiontext contours=true",
     "mrfmerge threads=1",
     "prmmotion threads=1",
     "srg threads=1",

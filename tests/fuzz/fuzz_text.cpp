@@ -47,9 +47,9 @@ void tryCaps(Bytes& bytes) {
 
 /// Sets any property of any element to any text, as gst-launch does.
 void trySetting(Bytes& bytes) {
-  constexpr const char* kFactories[] = {"bgremove",    "hsvsegment",    "srg",
-                                        "prmmotion",   "mrfmerge",      "regionmask",
-                                        "regionwrite", "regionoverlay", "regiontrack"};
+  constexpr const char* kFactories[] = {"bgremove",      "hsvsegment", "srg",        "prmmotion",
+                                        "mrfmerge",      "regionmask", "regiontext", "regionwrite",
+                                        "regionoverlay", "regiontrack"};
   Chain chain(bytes.pick(kFactories));
   std::vector<GstElement*> elements;
   listElements(chain.harness()->element, elements);

@@ -16,8 +16,8 @@ using testing::FailingNew;
 using testing::MessagePtr;
 
 std::vector<const char*> factories() {
-  std::vector<const char*> all{"bgremove", "hsvsegment", "srg",         "prmmotion",
-                               "mrfmerge", "regionmask", "regiontrack", "regionwrite"};
+  std::vector<const char*> all{"bgremove",   "hsvsegment", "srg",         "prmmotion",  "mrfmerge",
+                               "regionmask", "regiontext", "regiontrack", "regionwrite"};
 #ifdef REGIONGRAPH_HAS_OVERLAY
   all.push_back("regionoverlay");
 #endif

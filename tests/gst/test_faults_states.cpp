@@ -67,7 +67,7 @@ void expectFreshStory(Chain& chain, const std::string& line) {
 TEST(States, EveryElementMakesEveryChange) {
   constexpr int kOrder[] = {1, 0, 2, 0, 3, 1, 2, 1, 3, 2, 3, 0};
   for (const char* name : {"bgremove", "hsvsegment", "srg", "prmmotion", "mrfmerge", "regionmask",
-                           "regionwrite", "regiontrack", "regionoverlay"}) {
+                           "regiontext", "regionwrite", "regiontrack", "regionoverlay"}) {
     SCOPED_TRACE(name);
     GstElement* element = gst_element_factory_make(name, nullptr);
     if (!element && std::string(name) == "regionoverlay") continue;

@@ -95,6 +95,7 @@ void registerElements() {
   GST_ELEMENT_REGISTER(prmmotion, nullptr);
   GST_ELEMENT_REGISTER(mrfmerge, nullptr);
   GST_ELEMENT_REGISTER(regionmask, nullptr);
+  GST_ELEMENT_REGISTER(regiontext, nullptr);
   GST_ELEMENT_REGISTER(regiontrack, nullptr);
   GST_ELEMENT_REGISTER(regionwrite, nullptr);
 #ifdef REGIONGRAPH_HAS_OVERLAY
