@@ -141,7 +141,8 @@ class BgRemove final : public PixelFilter<Settings, background::Stage> {
 
   bool start() override {
     interest_ = {};
-    if (const auto read = interest_.follow(currentSettings()); !read) {
+    inForce_ = currentSettings();
+    if (const auto read = interest_.follow(inForce_); !read) {
       postError(read.error().message);
       return false;
     }
@@ -149,9 +150,8 @@ class BgRemove final : public PixelFilter<Settings, background::Stage> {
   }
 
   GstFlowReturn process(const FilterFrame& frame) override {
-    Settings settings = currentSettings();
-    if (const auto read = interest_.follow(settings); !read)
-      postWarning(read.error().message + "; what was set before stays in use");
+    checkOrder<segmentation::Labels, graph::Graph, motion::Motion, objects::Objects>(frame);
+    Settings settings = followInterest();
     settings.interest =
         interest_.fit({GST_VIDEO_INFO_WIDTH(&frame.info), GST_VIDEO_INFO_HEIGHT(&frame.info)});
     if (!frame.isUsable) {
@@ -167,6 +167,21 @@ class BgRemove final : public PixelFilter<Settings, background::Stage> {
   }
 
  private:
+  /// The settings; a mask or areas that can't be read go back to those in use.
+  Settings followInterest() {
+    Settings settings = currentSettings();
+    const InterestSettings& wanted = settings;
+    if (const auto read = interest_.follow(wanted); !read) {
+      postWarning(read.error().message + "; what was set before stays in use");
+      const std::lock_guard lock(settingsMutex());
+      InterestSettings& current = settings_;
+      if (current == wanted) current = inForce_;
+    } else if (inForce_ != wanted) {
+      inForce_ = wanted;
+    }
+    return settings;
+  }
+
   void tell(const background::Scene& scene, GstClockTime pts) {
     const char* name = messageOf(scene.event);
     if (!name) return;
@@ -179,6 +194,7 @@ class BgRemove final : public PixelFilter<Settings, background::Stage> {
   }
 
   InterestMask interest_;
+  InterestSettings inForce_;
 };
 
 const Settings kDefaults;

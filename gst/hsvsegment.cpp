@@ -17,6 +17,7 @@
 
 #include <array>
 #include <string>
+#include <tuple>
 #include <utility>
 
 namespace rg {
@@ -83,7 +84,7 @@ class HsvSegment final : public PixelFilter<Settings, segmentation::Stage> {
   explicit HsvSegment(GstBaseTransform* element) : PixelFilter(element, segmentation::makeStage) {}
 
   bool start() override {
-    hueText_ = {};
+    hueText_ = inForce_ = {};
     hue_ = {};
     if (const auto read = followHue(currentSettings()); !read) {
       postError(read.error().message);
@@ -93,9 +94,12 @@ class HsvSegment final : public PixelFilter<Settings, segmentation::Stage> {
   }
 
   GstFlowReturn process(const FilterFrame& frame) override {
+    checkOrder<graph::Graph, motion::Motion, objects::Objects>(frame);
     Settings settings = currentSettings();
-    if (const auto read = followHue(settings); !read)
+    if (const auto read = followHue(settings); !read) {
       postWarning(read.error().message + "; what was set before stays in use");
+      putBack(settings);
+    }
     settings.hue = hue_;
     if (frame.isFirst)
       autoScope_ = findResult<background::Foreground>(frame.buffer)
@@ -117,7 +121,16 @@ class HsvSegment final : public PixelFilter<Settings, segmentation::Stage> {
     hueText_ = std::move(text);
     if (!rules) return rules.error();
     hue_ = *rules;
+    inForce_ = hueText_;
     return true;
+  }
+
+  /// Where hues can't be read, the properties go back to those in use.
+  void putBack(const Settings& refused) {
+    const std::lock_guard lock(settingsMutex());
+    if (settings_.backgroundHue != refused.backgroundHue) return;
+    if (settings_.objectHue != refused.objectHue) return;
+    std::tie(settings_.backgroundHue, settings_.objectHue) = inForce_;
   }
 
   [[nodiscard]] segmentation::Scope scopeOf(ScopeChoice choice) const {
@@ -165,6 +178,7 @@ class HsvSegment final : public PixelFilter<Settings, segmentation::Stage> {
 
   segmentation::Scope autoScope_ = segmentation::Scope::Frame;
   std::pair<std::string, std::string> hueText_;  ///< As last asked for.
+  std::pair<std::string, std::string> inForce_;
   segmentation::HueRules hue_;
 };
 

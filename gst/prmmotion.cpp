@@ -42,6 +42,7 @@ class PrmMotion final : public ChainedFilter<Settings, motion::Stage, graph::Gra
  private:
   void handle(const FilterFrame& frame, std::shared_ptr<const graph::Graph> graph,
               const Settings& settings) override {
+    checkOrder<objects::Objects>(frame);
     if (graph)
       attach<motion::Motion>(frame, stage().process(std::move(graph), settings));
     else

@@ -17,6 +17,7 @@
 #include "gst/meta/result_meta.hpp"
 #include "gst/support/filter.hpp"
 #include "gst/support/guarded.hpp"
+#include "gst/support/lost_results.hpp"
 #include "gst/support/mask_painter.hpp"
 #include "gst/support/properties.hpp"
 #include "gst/support/video_map.hpp"
@@ -103,10 +104,16 @@ RegionMask& maskOf(gpointer instance) {
   return reinterpret_cast<Instance*>(instance)->mask;
 }
 
-void setProperty(GObject* object, guint id, const GValue* value, GParamSpec*) {
+void setProperty(GObject* object, guint id, const GValue* value, GParamSpec* spec) {
   RegionMask& mask = maskOf(object);
-  const std::lock_guard lock(mask.settingsMutex);
-  kProperties[id - 1].set(&mask.settings, value);
+  {
+    const std::lock_guard lock(mask.settingsMutex);
+    if (!mask.running) return kProperties[id - 1].set(&mask.settings, value);
+  }
+  GST_ELEMENT_WARNING(
+      object, RESOURCE, SETTINGS,
+      ("%s stays as it was: it can change in the states NULL and READY only.", spec->name),
+      (nullptr));
 }
 
 void getProperty(GObject* object, guint id, GValue* value, GParamSpec*) {
@@ -207,9 +214,7 @@ GstFlowReturn handleMissing(GstBaseTransform* element, MaskSource source) {
   const char* producer = producerOf(source);
   if (mask.isFirst) {
     GST_ELEMENT_ERROR(element, STREAM, FAILED,
-                      ("No result of %s on the frames: add %s to the pipeline before this element.",
-                       producer, producer),
-                      (nullptr));
+                      ("%s", whyMissing(GST_ELEMENT(element), producer).c_str()), (nullptr));
     return GST_FLOW_ERROR;
   }
   if (!std::exchange(mask.hasWarned, true))

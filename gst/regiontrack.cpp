@@ -4,23 +4,26 @@
  * @title: regiontrack
  *
  * bgremove ! hsvsegment ! srg ! prmmotion ! mrfmerge in one element, for applications that take
- * one. The children have the names of their elements and their properties are set through
- * GstChildProxy; gst-inspect-1.0 on each of the five describes them. Element messages of mrfmerge
- * come from the child.
+ * one. Its properties are those of the five, under their own names. The children have the names of
+ * their elements and can be reached through GstChildProxy as well; one that is none is an error
+ * when the bin starts. Element messages come from the children.
  *
  * |[
  * gst-launch-1.0 -q filesrc location=clip.avi ! decodebin ! videoconvert !
- *   regiontrack bgremove::threshold=30 mrfmerge::max-lost-time=4 ! regionwrite ! fakesink
+ *   regiontrack threshold=30 max-lost-time=4 ! regionwrite ! fakesink
  * ]|
  */
 #include "gst/elements.hpp"
 #include "gst/support/filter.hpp"
 #include "gst/support/properties.hpp"
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <mutex>
 #include <new>
+#include <string>
+#include <string_view>
 #include <utility>
 
 namespace rg {
@@ -39,22 +42,26 @@ constexpr std::array kChildren{
     Child{"mrfmerge", gst_region_mrfmerge_get_type},
 };
 
-struct Settings {
-  int threads = 0;
-};
-const Settings kDefaults;
+constexpr const char* kThreadsBlurb =
+    "Threads that each of the five elements works with; 0 = as many as there are cores, never more";
+constexpr guint kThreadsId = 1;
 
-constexpr std::array kProperties{
-    property<Settings, &Settings::threads>(
-        "threads",
-        "Threads that each of the five elements works with; 0 = as many as there are cores, never "
-        "more",
-        0, 1024, Mutable::Ready),
+/// A property of one child alone, which the bin has too.
+struct Proxied {
+  size_t child = 0;
+  const Property* property = nullptr;
 };
+
+/// Filled with the class. In an array, as there may be no memory.
+struct ProxiedList {
+  std::array<Proxied, 64> list;
+  guint count = 0;
+};
+ProxiedList proxied;
 
 struct RegionTrack {
-  std::mutex settingsMutex;  ///< Protects `settings`; nothing is called while it is held.
-  Settings settings;
+  std::mutex mutex;     ///< Protects `unknown`; nothing is called while it is held.
+  std::string unknown;  ///< Asked for as a child, which there is none of.
   std::array<GstElement*, kChildren.size()> children{};  ///< The bin owns them.
 };
 
@@ -70,25 +77,97 @@ RegionTrack& trackOf(gpointer instance) {
   return reinterpret_cast<Instance*>(instance)->track;
 }
 
-void setProperty(GObject* object, guint id, const GValue* value, GParamSpec*) {
-  RegionTrack& track = trackOf(object);
-  {
-    const std::lock_guard lock(track.settingsMutex);
-    kProperties[id - 1].set(&track.settings, value);
-  }
-  for (GstElement* child : track.children)
-    g_object_set_property(G_OBJECT(child), kProperties[id - 1].name, value);
+GObject* childOf(GObject* bin, guint id) {
+  return G_OBJECT(trackOf(bin).children[proxied.list[id - kThreadsId - 1].child]);
 }
 
-void getProperty(GObject* object, guint id, GValue* value, GParamSpec*) {
-  RegionTrack& track = trackOf(object);
-  const std::lock_guard lock(track.settingsMutex);
-  kProperties[id - 1].get(&track.settings, value);
+/// All children have it, and refuse it alike.
+void setThreads(const RegionTrack& track, const GValue* value) {
+  for (GstElement* child : track.children) {
+    int before = 0;
+    g_object_set_property(G_OBJECT(child), "threads", value);
+    g_object_get(child, "threads", &before, nullptr);
+    if (before != g_value_get_int(value)) return;
+  }
+}
+
+void setProperty(GObject* object, guint id, const GValue* value, GParamSpec* spec) {
+  if (id == kThreadsId)
+    setThreads(trackOf(object), value);
+  else
+    g_object_set_property(childOf(object, id), spec->name, value);
+}
+
+void getProperty(GObject* object, guint id, GValue* value, GParamSpec* spec) {
+  GObject* child =
+      id == kThreadsId ? G_OBJECT(trackOf(object).children.front()) : childOf(object, id);
+  g_object_get_property(child, spec->name, value);
 }
 
 void finalize(GObject* object) {
   std::destroy_at(&trackOf(object));
   G_OBJECT_CLASS(parentClass)->finalize(object);
+}
+
+/// The properties that one child alone has and that can be set. Nobody steps their controllers.
+void installProxied(GObjectClass* klass) {
+  const auto children = [](const Property& property) {
+    return std::count_if(kChildren.begin(), kChildren.end(), [&](const Child& child) {
+      const auto& all = descriptionOf(child.type()).properties;
+      return std::any_of(all.begin(), all.end(), [&](const Property& other) {
+        return std::string_view(other.name) == property.name;
+      });
+    });
+  };
+  for (size_t i = 0; i < kChildren.size(); ++i) {
+    const FilterDescription& about = descriptionOf(kChildren[i].type());
+    for (const Property& property : about.properties) {
+      if (property.when == Mutable::Never || children(property) > 1) continue;
+      g_assert(proxied.count < proxied.list.size());
+      proxied.list[proxied.count++] = {i, &property};
+      const auto flags = static_cast<GParamFlags>(flagsOf(property.when) & ~GST_PARAM_CONTROLLABLE);
+      g_object_class_install_property(klass, kThreadsId + proxied.count,
+                                      property.makeSpec(property, about.defaults, flags));
+    }
+  }
+}
+
+/// A launch line or an application that sets a property of a child that is none would wait for it
+/// for ever.
+GObject* getChildByName(GstChildProxy* proxy, const gchar* name) {
+  auto* parent = static_cast<GstChildProxyInterface*>(
+      g_type_interface_peek_parent(GST_CHILD_PROXY_GET_INTERFACE(proxy)));
+  GObject* child = parent->get_child_by_name(proxy, name);
+  if (child) return child;
+  RegionTrack& track = trackOf(proxy);
+  try {
+    const std::lock_guard lock(track.mutex);
+    track.unknown = name;
+  } catch (...) {  // No memory to tell of it.
+  }
+  return nullptr;
+}
+
+bool knowsItsChildren(GstElement* bin) {
+  std::string unknown;
+  {
+    RegionTrack& track = trackOf(bin);
+    const std::lock_guard lock(track.mutex);
+    unknown.swap(track.unknown);
+  }
+  if (unknown.empty()) return true;
+  GST_ELEMENT_ERROR(bin, RESOURCE, SETTINGS,
+                    ("There is no child \"%s\" whose property could be set: the children are "
+                     "bgremove, hsvsegment, srg, prmmotion and mrfmerge.",
+                     unknown.c_str()),
+                    (nullptr));
+  return false;
+}
+
+GstStateChangeReturn changeState(GstElement* bin, GstStateChange change) {
+  if (change == GST_STATE_CHANGE_NULL_TO_READY && !knowsItsChildren(bin))
+    return GST_STATE_CHANGE_FAILURE;
+  return GST_ELEMENT_CLASS(parentClass)->change_state(bin, change);
 }
 
 void addGhostPad(GstElement* bin, GstElement* child, const char* name) {
@@ -118,19 +197,24 @@ void initClass(gpointer klass, gpointer) {
   object->set_property = setProperty;
   object->get_property = getProperty;
   object->finalize = finalize;
-  installProperties(object, kProperties, &kDefaults);
+  g_object_class_install_property(
+      object, kThreadsId,
+      g_param_spec_int("threads", "threads", kThreadsBlurb, 0, 1024, 0, flagsOf(Mutable::Ready)));
+  installProxied(object);
 
   auto* element = GST_ELEMENT_CLASS(klass);
+  element->change_state = changeState;
   gst_element_class_set_static_metadata(
       element, "Region tracking", "Filter/Analyzer/Video",
       "Finds, follows and describes what moves: bgremove, hsvsegment, srg, prmmotion and mrfmerge "
-      "in one element, for applications that take one. Properties of the five are reached as "
-      "CHILD::PROPERTY (bgremove::threshold=30). Attaches all their metas; pixels pass untouched",
+      "in one element, for applications that take one. Properties of the five have their own names "
+      "here too (threshold=30, or bgremove::threshold=30). Attaches all their metas; pixels pass "
+      "untouched",
       "The gst-regiongraph developers");
   gst_element_class_add_static_metadata(
       element, "example",
       "gst-launch-1.0 -q videotestsrc pattern=ball num-buffers=100 ! video/x-raw,format=I420 ! "
-      "regiontrack bgremove::threshold=30 ! regionwrite ! fakesink");
+      "regiontrack threshold=30 ! regionwrite ! fakesink");
   GstCaps* caps = gst_caps_from_string(kPixelCaps);
   for (const auto& [name, direction] : {std::pair{"sink", GST_PAD_SINK}, {"src", GST_PAD_SRC}})
     gst_element_class_add_pad_template(element,
@@ -144,7 +228,14 @@ GType registerTrack() {
   info.class_init = initClass;
   info.instance_size = sizeof(Instance);
   info.instance_init = initInstance;
-  return g_type_register_static(GST_TYPE_BIN, "GstRegionTrack", &info, static_cast<GTypeFlags>(0));
+  const GType type =
+      g_type_register_static(GST_TYPE_BIN, "GstRegionTrack", &info, static_cast<GTypeFlags>(0));
+  GInterfaceInfo proxy{};
+  proxy.interface_init = [](gpointer interface, gpointer) {
+    static_cast<GstChildProxyInterface*>(interface)->get_child_by_name = getChildByName;
+  };
+  g_type_add_interface_static(type, GST_TYPE_CHILD_PROXY, &proxy);
+  return type;
 }
 
 }  // namespace

@@ -45,6 +45,7 @@ class Srg final : public ChainedFilter<Settings, graph::Stage, segmentation::Lab
  private:
   void handle(const FilterFrame& frame, std::shared_ptr<const segmentation::Labels> labels,
               const Settings& settings) override {
+    checkOrder<motion::Motion, objects::Objects>(frame);
     if (labels)
       attach<graph::Graph>(frame, stage().process(std::move(labels), settings));
     else

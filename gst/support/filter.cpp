@@ -4,6 +4,7 @@
 #include "gst/support/foreign_enum.hpp"
 #include "gst/support/frame_hold.hpp"
 #include "gst/support/guarded.hpp"
+#include "gst/support/lost_results.hpp"
 
 #include <algorithm>
 #include <tuple>
@@ -19,9 +20,6 @@ const char* const kPixelCaps = "video/x-raw, format=(string)" RG_PIXEL_FORMATS "
 const char* const kMetaCaps = "video/x-raw(ANY), " RG_SIZES;
 
 namespace {
-
-/// Larger frames are refused: labels and sums are sized for this many pixels (8K: 8192x4320).
-constexpr int64_t kMaxPixels = int64_t{8192} * 4320;
 
 /// GObject can't refuse to make an instance. Where there was no memory for the filter, the element
 /// has none: it keeps no property, and fails when it is started.
@@ -74,15 +72,20 @@ struct FilterShell {
   static void setProperty(GObject* object, guint id, const GValue* value, GParamSpec* spec) {
     Filter* filter = filterOf(object);
     if (!filter) return;
+    bool isInForce = false;
     try {
+      const Property& property = classOf(object)->description->properties[id - 1];
       const std::lock_guard lock(filter->settingsMutex());
-      classOf(object)->description->properties[id - 1].set(filter->settings(), value);
-      return;
+      isInForce = filter->isRunning_ && property.when == Mutable::Ready;
+      if (!isInForce) property.set(filter->settings(), value);
+      if (!isInForce) return;
     } catch (...) {  // Only a text needs memory.
     }
-    GST_ELEMENT_WARNING(object, RESOURCE, SETTINGS,
-                        ("%s stays as it was: out of memory.", g_param_spec_get_name(spec)),
-                        (nullptr));
+    GST_ELEMENT_WARNING(
+        object, RESOURCE, SETTINGS,
+        ("%s stays as it was: %s.", g_param_spec_get_name(spec),
+         isInForce ? "it can change in the states NULL and READY only" : "out of memory"),
+        (nullptr));
   }
 
   static void getProperty(GObject* object, guint id, GValue* value, GParamSpec*) {
@@ -107,7 +110,15 @@ struct FilterShell {
       filter.clock_ = {};
       filter.streamId_.clear();
       filter.hasCaps_ = false;
-      const bool hasStarted = filter.start();
+      filter.setRunning(true);
+      bool hasStarted = false;
+      try {
+        hasStarted = filter.start();
+      } catch (...) {
+        filter.setRunning(false);
+        throw;
+      }
+      filter.setRunning(hasStarted);
       filter.wholeLatency_ = filter.latency();
       return hasStarted;
     });
@@ -116,6 +127,7 @@ struct FilterShell {
   static gboolean stop(GstBaseTransform* element) {
     return withFilter(element, FALSE, [](Filter& filter) -> gboolean {
       filter.dropHeld();
+      filter.setRunning(false);
       filter.reset(Reset::Stream);
       filter.stop();
       return TRUE;
@@ -352,39 +364,21 @@ GType registerFilter(const FilterDescription& description) {
   info.class_data = &description;
   info.instance_size = sizeof(Instance);
   info.instance_init = FilterShell::initInstance;
-  return g_type_register_static(GST_TYPE_BASE_TRANSFORM, description.typeName, &info,
-                                static_cast<GTypeFlags>(0));
+  const GType type = g_type_register_static(GST_TYPE_BASE_TRANSFORM, description.typeName, &info,
+                                            static_cast<GTypeFlags>(0));
+  nameType(type, description.elementName);
+  return type;
 }
 
-bool acceptsSize(gpointer element, const GstVideoInfo& info) {
-  const int width = GST_VIDEO_INFO_WIDTH(&info), height = GST_VIDEO_INFO_HEIGHT(&info);
-  const int64_t pixels = int64_t{width} * height;
-  if (pixels > 0 && pixels <= kMaxPixels) return true;
-  GST_ELEMENT_ERROR(element, STREAM, FORMAT, ("Frames of %dx%d are too large.", width, height),
-                    ("At most %" G_GINT64_FORMAT " pixels; put videoscale in front.", kMaxPixels));
-  return false;
+const FilterDescription& descriptionOf(GType type) {
+  gpointer klass = g_type_class_ref(type);
+  const FilterDescription& description = *static_cast<Class*>(klass)->description;
+  g_type_class_unref(klass);
+  return description;
 }
 
 GstDebugCategory* Filter::category() const {
   return classOf(element_)->category;
-}
-
-guint64 Filter::mostHeld() const {
-  return mostHeldFrames(info_);
-}
-
-void Filter::sendHeld() {
-  while (GstBuffer* buffer = release(true))
-    gst_pad_push(GST_BASE_TRANSFORM_SRC_PAD(element_), buffer);
-}
-
-void Filter::postWarning(const std::string& text) const {
-  GST_ELEMENT_WARNING(element_, STREAM, FAILED, ("%s", text.c_str()), (nullptr));
-}
-
-GstFlowReturn Filter::postError(const std::string& text) const {
-  GST_ELEMENT_ERROR(element_, STREAM, FAILED, ("%s", text.c_str()), (nullptr));
-  return GST_FLOW_ERROR;
 }
 
 }  // namespace rg

@@ -46,6 +46,9 @@ bool acceptsSize(gpointer element, const GstVideoInfo& info);
 /// Registers the element's type; for use in a function-local static.
 GType registerFilter(const FilterDescription& description);
 
+/// Of a type that was registered so.
+[[nodiscard]] const FilterDescription& descriptionOf(GType type);
+
 /// One frame on its way through an element.
 struct FilterFrame {
   GstBuffer* buffer;         ///< Metas may be added, pixels are shared.
@@ -113,8 +116,11 @@ class Filter {
  private:
   friend struct FilterShell;
 
+  void setRunning(bool isRunning);
+
   GstBaseTransform* const element_;
   std::mutex settingsMutex_;  ///< Protects the settings; held for a copy, never while calling out.
+  bool isRunning_ = false;    ///< Guarded by it: what is Mutable::Ready is in force.
   GstVideoInfo info_{};
   bool hasCaps_ = false;
   bool isFirst_ = true;

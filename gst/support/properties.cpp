@@ -2,7 +2,6 @@
 #include "gst/support/properties.hpp"
 
 namespace rg {
-namespace {
 
 GParamFlags flagsOf(Mutable when) {
   const int readable = G_PARAM_READABLE | G_PARAM_STATIC_STRINGS;
@@ -17,8 +16,6 @@ GParamFlags flagsOf(Mutable when) {
   }
   return static_cast<GParamFlags>(readable);
 }
-
-}  // namespace
 
 void installProperties(GObjectClass* klass, std::span<const Property> table, const void* defaults) {
   guint id = 1;

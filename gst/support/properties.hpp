@@ -122,6 +122,9 @@ constexpr Property enumProperty(const char* name, const char* blurb, GType (*typ
   return p;
 }
 
+/// What a property's spec says of when it may be read and changed.
+[[nodiscard]] GParamFlags flagsOf(Mutable when);
+
 /// Adds the table's properties to a class; ids are index + 1.
 void installProperties(GObjectClass* klass, std::span<const Property> table, const void* defaults);
 

@@ -10,6 +10,7 @@
 #include "core/objects/objects.hpp"
 #include "gst/meta/result_meta.hpp"
 #include "gst/support/filter.hpp"
+#include "gst/support/lost_results.hpp"
 
 #include <memory>
 #include <string>
@@ -59,16 +60,28 @@ class StageFilter : public Filter {
     auto upstream = require<Payload>(frame, producer);
     if (upstream.result && objects::isPacked(*upstream.result)) {
       upstream.result = nullptr;
-      upstream.flow = reportMissing(frame, producer);
+      upstream.flow = postError(std::string("mrfmerge has packed the results of ") + producer +
+                                " for their readers: put this stage before mrfmerge.");
     }
     return upstream;
   }
 
+  /// Warns where a later stage has seen the frame before this one: what it said was of nothing, or
+  /// of the whole frame.
+  template <class... Later>
+  void checkOrder(const FilterFrame& frame) {
+    if (!frame.isFirst || hasCheckedOrder_) return;
+    hasCheckedOrder_ = true;
+    if ((findResult<Later>(frame.buffer) || ...))
+      postWarning(
+          "A later stage stands before this one, and did not see its results: put the "
+          "stages in the order bgremove, hsvsegment, srg, prmmotion, mrfmerge.");
+  }
+  void forgetOrder() { hasCheckedOrder_ = false; }
+
   /// An error on the first frame, since what is missing there will never come; else one warning.
   GstFlowReturn reportMissing(const FilterFrame& frame, const std::string& producer) {
-    if (frame.isFirst)
-      return postError("No result of " + producer + " on the frames: add " + producer +
-                       " to the pipeline before this element.");
+    if (frame.isFirst) return postError(whyMissing(GST_ELEMENT(element()), producer.c_str()));
     warnOnce("The results of " + producer + " stopped; frames without them are skipped.");
     return GST_FLOW_OK;
   }
@@ -105,7 +118,8 @@ class StageFilter : public Filter {
   void forgetWarnings() { hasWarned_ = false; }
 
  private:
-  bool hasWarned_ = false;  ///< In this stream: a broken stream must not flood the bus.
+  bool hasWarned_ = false;        ///< In this stream: a broken stream must not flood the bus.
+  bool hasCheckedOrder_ = false;  ///< Since the start.
 };
 
 /// A stage element: its settings and the stage that is made when it starts.
@@ -120,6 +134,7 @@ class StageOwner : public StageFilter {
   void* settings() override { return &settings_; }
 
   bool start() override {
+    this->forgetOrder();
     const Context context = makeContext(currentSettings().threads);
     executor_ = context.cpu;
     stage_ = makeStage_(context);

@@ -101,6 +101,39 @@ TEST(RegionTrack, SetsChildrenFromALaunchLine) {
   gst_object_unref(pipeline);
 }
 
+TEST(RegionTrack, HasTheChildrensPropertiesUnderTheirOwnNames) {
+  GstElement* bin = gst_element_factory_make("regiontrack", nullptr);
+  auto* proxy = GST_CHILD_PROXY(bin);
+  for (const char* name : kNames) {
+    SCOPED_TRACE(name);
+    GObject* child = gst_child_proxy_get_child_by_name(proxy, name);
+    guint count = 0;
+    GParamSpec** specs = g_object_class_list_properties(G_OBJECT_GET_CLASS(child), &count);
+    for (guint i = 0; i < count; ++i) {
+      if (specs[i]->owner_type != G_OBJECT_TYPE(child) || !(specs[i]->flags & G_PARAM_WRITABLE))
+        continue;
+      const GParamSpec* own = g_object_class_find_property(G_OBJECT_GET_CLASS(bin), specs[i]->name);
+      ASSERT_TRUE(own) << specs[i]->name;
+      EXPECT_EQ(own->value_type, specs[i]->value_type);
+    }
+    g_free(specs);
+    g_object_unref(child);
+  }
+  g_object_set(bin, "threshold", 30, "max-lost-time", 4.5, "object-hue", "350-10", nullptr);
+  int threshold = 0;
+  double seconds = 0;
+  gst_child_proxy_get(proxy, "bgremove::threshold", &threshold, "mrfmerge::max-lost-time", &seconds,
+                      nullptr);
+  EXPECT_EQ(threshold, 30);
+  EXPECT_EQ(seconds, 4.5);
+  gst_child_proxy_set(proxy, "hsvsegment::object-hue", "80-160", nullptr);
+  gchar* hue = nullptr;
+  g_object_get(bin, "object-hue", &hue, nullptr);
+  EXPECT_STREQ(hue, "80-160");
+  g_free(hue);
+  gst_object_unref(bin);
+}
+
 TEST(RegionTrack, NeedsNoRegistry) {
   auto* bin = GST_ELEMENT(g_object_new(gst_region_track_get_type(), nullptr));
   gst_object_ref_sink(bin);
