@@ -15,6 +15,8 @@ constexpr int kMostShift = 3;
 constexpr int kMostOff = 32;  ///< Grey levels that a point counts at most: it may be an object's.
 constexpr int kLeastChroma = 20;
 constexpr int kFields = 8;
+constexpr int kBlack = 2;  ///< Grey levels up to which nothing shines and nothing is noise.
+constexpr int kLit = 64;   ///< And from which something shines.
 
 template <class Visit>
 void forGrid(Size size, int margin, Visit&& visit) {
@@ -38,15 +40,18 @@ int modelled(const ConsensusBackground& model, Point p) {
 }  // namespace
 
 bool isDarkerThan(const SmoothPicture& picture, int level) {
-  int points = 0, bright = 0;
+  int points = 0, bright = 0, lit = 0, dim = 0;
   forGrid(picture.size(), 0, [&](Point p) {
     int most = 0;
     for (size_t c = 0; c < static_cast<size_t>(picture.channels); ++c)
       most = std::max<int>(most, picture.planes[c].at(p.x, p.y));
     ++points;
     bright += most > level;
+    lit += most >= kLit;
+    dim += most > kBlack && most <= level;
   });
-  return 50 * bright <= points;
+  const bool isOnBlack = 500 * lit >= points && dim <= lit;
+  return 50 * bright <= points && !isOnBlack;
 }
 
 bool hasSwitchedColour(const SmoothPicture& picture, const ConsensusBackground& model) {

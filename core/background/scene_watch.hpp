@@ -12,7 +12,8 @@
 
 namespace rg::background {
 
-/// Nothing to be seen: no more than one point in 50 is brighter than `level`.
+/// Nothing to be seen: no more than one point in 50 is brighter than `level`. Something lit before
+/// pure black is seen all the same: there is no noise to be taken for it, as in drawn pictures.
 [[nodiscard]] bool isDarkerThan(const SmoothPicture& picture, int level);
 
 /// The picture has lost its colour against the model, or has got some: a camera that switched
