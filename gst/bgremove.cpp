@@ -12,12 +12,15 @@
  * ]|
  */
 #include "core/background/background.hpp"
+#include "core/text/text.hpp"
 #include "gst/elements.hpp"
 #include "gst/support/interest_mask.hpp"
 #include "gst/support/pixel_filter.hpp"
 #include "gst/support/timed_message.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cstdio>
 
 namespace rg {
 namespace {
@@ -112,6 +115,7 @@ constexpr std::array kProperties{
         "What method=frame-difference takes its threshold from, where threshold is 0",
         thresholdSourceType),
     threadsProperty<Settings>(),
+    statsProperty<Settings>(),
     badBuffersProperty<Settings>(),
 };
 
@@ -182,15 +186,29 @@ class BgRemove final : public PixelFilter<Settings, background::Stage> {
     return settings;
   }
 
+  [[nodiscard]] Progress describe(const FilterFrame& frame) override {
+    const auto seen = findResult<background::Foreground>(frame.buffer);
+    if (!seen) return {};
+    const auto pixels = static_cast<double>(std::max<int64_t>(seen->size.area(), 1));
+    std::array<char, 160> text;
+    std::snprintf(text.data(), text.size(),
+                  "%s, foreground %.2f %% of the frame in %zu areas%s, background off by %d,%d px",
+                  text::name(seen->status).data(), 100 * seen->scene.foregroundPx / pixels,
+                  seen->areas.size(), seen->scene.isDark ? ", too dark to see" : "",
+                  seen->scene.shift.x, seen->scene.shift.y);
+    const uint64_t state = static_cast<uint64_t>(seen->status) * 256 +
+                           static_cast<uint64_t>(seen->scene.event) * 2 + seen->scene.isDark;
+    return {state, text.data()};
+  }
+
   void tell(const background::Scene& scene, GstClockTime pts) {
     const char* name = messageOf(scene.event);
     if (!name) return;
-    GST_DEBUG_OBJECT(element(), "%s", name);
     GstStructure* fields = gst_structure_new_empty(name);
     if (scene.event == background::SceneEvent::TooDark ||
         scene.event == background::SceneEvent::BrightAgain)
       gst_structure_set(fields, "dark", G_TYPE_BOOLEAN, scene.isDark, nullptr);
-    postTimedMessage(element(), pts, fields);
+    postTimedMessage(element(), category(), pts, fields);
   }
 
   InterestMask interest_;
@@ -207,7 +225,8 @@ const FilterDescription kDescription{
         "Tells the moving foreground of a still camera's picture from its background. "
         "Attaches a mask (0 background, 128 shadow, 255 foreground) and the boxes of its "
         "connected parts to each buffer as a meta; pixels pass untouched. First of the "
-        "five stages; leave it out for a moving camera",
+        "five stages; leave it out for a moving camera. Frames have at most 35389440 pixels "
+        "(8192x4320)",
     .example =
         "gst-launch-1.0 videotestsrc pattern=ball num-buffers=100 ! "
         "video/x-raw,format=I420 ! bgremove ! regionmask source=foreground ! pngenc ! "

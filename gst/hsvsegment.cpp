@@ -12,10 +12,12 @@
  * ]|
  */
 #include "core/segmentation/segmentation.hpp"
+#include "core/text/text.hpp"
 #include "gst/elements.hpp"
 #include "gst/support/pixel_filter.hpp"
 
 #include <array>
+#include <cstdio>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -76,6 +78,7 @@ constexpr std::array kProperties{
         "Hues of the things to follow: only pixels of these get a region. FROM-TO in degrees, as "
         "350-10 for red; empty = all hues"),
     threadsProperty<Settings>(),
+    statsProperty<Settings>(),
     badBuffersProperty<Settings>(),
 };
 
@@ -176,6 +179,18 @@ class HsvSegment final : public PixelFilter<Settings, segmentation::Stage> {
         frame, stage().process(std::move(picture), std::move(foreground), settings));
   }
 
+  [[nodiscard]] Progress describe(const FilterFrame& frame) override {
+    const auto labels = findResult<segmentation::Labels>(frame.buffer);
+    if (!labels) return {};
+    constexpr std::array kScopes{"the frame", "the foreground", "the areas"};
+    const auto scope = static_cast<size_t>(labels->scope);
+    std::array<char, 120> text;
+    std::snprintf(text.data(), text.size(), "%s, %u regions in %s, at most %d allowed",
+                  text::name(labels->status).data(), labels->count, kScopes[scope],
+                  currentSettings().maxRegions);
+    return {static_cast<uint64_t>(labels->status) * 8 + scope, text.data()};
+  }
+
   segmentation::Scope autoScope_ = segmentation::Scope::Frame;
   std::pair<std::string, std::string> hueText_;  ///< As last asked for.
   std::pair<std::string, std::string> inForce_;
@@ -192,7 +207,7 @@ const FilterDescription kDescription{
         "Divides the whole frame, or the foreground that bgremove found, into regions of "
         "one colour. Attaches the number of its region to each pixel as a meta; pixels "
         "pass untouched. Second of the five stages, needs bgremove only for "
-        "scope=foreground and scope=areas",
+        "scope=foreground and scope=areas. Frames have at most 35389440 pixels (8192x4320)",
     .example =
         "gst-launch-1.0 videotestsrc pattern=ball num-buffers=100 ! "
         "video/x-raw,format=I420 ! hsvsegment max-regions=160 ! regionmask source=labels "

@@ -26,15 +26,18 @@
  * ]|
  */
 #include "core/objects/objects.hpp"
+#include "core/text/text.hpp"
 #include "gst/elements.hpp"
 #include "gst/support/frame_hold.hpp"
 #include "gst/support/object_messages.hpp"
 #include "gst/support/roi_metas.hpp"
 #include "gst/support/stage_filter.hpp"
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <cstdio>
 #include <deque>
 #include <new>
 #include <utility>
@@ -90,12 +93,13 @@ constexpr std::array kProperties{
         "known of them",
         0, 10, Mutable::Ready),
     threadsProperty<Settings>(),
+    statsProperty<Settings>(),
 };
 
 class MrfMerge final : public ChainedFilter<Settings, objects::Stage, motion::Motion> {
  public:
   explicit MrfMerge(GstBaseTransform* element)
-      : ChainedFilter(element, objects::makeStage, "prmmotion"), messages_(element) {}
+      : ChainedFilter(element, objects::makeStage, "prmmotion"), messages_(element, category()) {}
 
   bool start() override {
     latency_ = static_cast<GstClockTime>(std::llround(currentSettings().latencyS * 1e9));
@@ -150,11 +154,28 @@ class MrfMerge final : public ChainedFilter<Settings, objects::Stage, motion::Mo
       postWarning(
           "So many small regions touch a large one that groups are not searched to the end; a "
           "larger min-area or similarity of hsvsegment, or a smaller max-regions, makes fewer.");
+    remember(*objects);
     objects = pack(frame.buffer, objects);
     if (latency() > 0)
       delay(std::move(objects), frame.time.ns);
     else
       publish(frame.buffer, std::move(objects));
+  }
+
+  /// Of the frame that came, which may leave later.
+  [[nodiscard]] Progress describe(const FilterFrame&) override {
+    std::array<char, 120> text;
+    std::snprintf(text.data(), text.size(), "%s, %zu regions in %zu groups, %zu objects known",
+                  text::name(told_.status).data(), told_.regions, told_.groups, told_.objects);
+    return {static_cast<uint64_t>(told_.status) * 65536 + told_.objects, text.data()};
+  }
+  void remember(const objects::Objects& objects) {
+    if (!ProgressLog::isOn(category())) return;
+    auto groups = objects.regionGroup;
+    std::sort(groups.begin(), groups.end());
+    const auto end = std::unique(groups.begin(), groups.end());
+    told_ = {objects.status, groups.size(), static_cast<size_t>(end - groups.begin()),
+             objects.objects.size()};
   }
 
   /// The frame's results in the form in which they wait for their readers; as they are where there
@@ -219,6 +240,11 @@ class MrfMerge final : public ChainedFilter<Settings, objects::Stage, motion::Mo
 
   ObjectMessages messages_;
   objects::ResultPacker packer_;
+  struct Told {
+    Status status = Status::Skipped;
+    size_t regions = 0, groups = 0, objects = 0;
+  };
+  Told told_;                ///< Of the latest frame, where somebody wants to know.
   bool hasToldCut_ = false;  ///< Since the element started.
   GstVideoInfo info_{};      ///< Of the frames that are held.
   std::atomic<GstClockTime> latency_ = 0;

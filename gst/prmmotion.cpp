@@ -13,10 +13,13 @@
  * ]|
  */
 #include "core/motion/motion.hpp"
+#include "core/text/text.hpp"
 #include "gst/elements.hpp"
 #include "gst/support/stage_filter.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cstdio>
 
 namespace rg {
 namespace {
@@ -32,6 +35,7 @@ constexpr std::array kProperties{
     property<Settings, &Settings::isSubpixel>(
         "subpixel", "Refine vectors to 1/16 pixel; otherwise they are whole pixels"),
     threadsProperty<Settings>(),
+    statsProperty<Settings>(),
 };
 
 class PrmMotion final : public ChainedFilter<Settings, motion::Stage, graph::Graph> {
@@ -47,6 +51,20 @@ class PrmMotion final : public ChainedFilter<Settings, motion::Stage, graph::Gra
       attach<motion::Motion>(frame, stage().process(std::move(graph), settings));
     else
       attachSkipped<motion::Motion>(frame);
+  }
+
+  [[nodiscard]] Progress describe(const FilterFrame& frame) override {
+    const auto motion = findResult<motion::Motion>(frame.buffer);
+    if (!motion) return {};
+    const auto moving = std::count_if(
+        motion->regions.begin(), motion->regions.end(),
+        [](const motion::RegionMotion& region) { return region.dx != 0 || region.dy != 0; });
+    std::array<char, 120> text;
+    std::snprintf(text.data(), text.size(), "%s, %zu regions, %td of them move, %.0f %% searched",
+                  text::name(motion->status).data(), motion->regions.size(), moving,
+                  100.0 * (motion->matchedBlocks - motion->stillBlocks) /
+                      std::max(motion->matchedBlocks, 1u));
+    return {static_cast<uint64_t>(motion->status), text.data()};
   }
 };
 

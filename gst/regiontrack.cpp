@@ -209,7 +209,7 @@ void initClass(gpointer klass, gpointer) {
       "Finds, follows and describes what moves: bgremove, hsvsegment, srg, prmmotion and mrfmerge "
       "in one element, for applications that take one. Properties of the five have their own names "
       "here too (threshold=30, or bgremove::threshold=30). Attaches all their metas; pixels pass "
-      "untouched",
+      "untouched. Frames have at most 35389440 pixels (8192x4320)",
       "The gst-regiongraph developers");
   gst_element_class_add_static_metadata(
       element, "example",

@@ -12,10 +12,13 @@
  * ]|
  */
 #include "core/graph/graph.hpp"
+#include "core/text/text.hpp"
 #include "gst/elements.hpp"
 #include "gst/support/stage_filter.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cstdio>
 
 namespace rg {
 namespace {
@@ -35,6 +38,7 @@ constexpr std::array kProperties{
     enumProperty<Settings, &Settings::connectivity>(
         "connectivity", "Which pixels count as neighbours across a border", connectivityType),
     threadsProperty<Settings>(),
+    statsProperty<Settings>(),
 };
 
 class Srg final : public ChainedFilter<Settings, graph::Stage, segmentation::Labels> {
@@ -50,6 +54,15 @@ class Srg final : public ChainedFilter<Settings, graph::Stage, segmentation::Lab
       attach<graph::Graph>(frame, stage().process(std::move(labels), settings));
     else
       attachSkipped<graph::Graph>(frame);
+  }
+
+  [[nodiscard]] Progress describe(const FilterFrame& frame) override {
+    const auto graph = findResult<graph::Graph>(frame.buffer);
+    if (!graph) return {};
+    std::array<char, 80> text;
+    std::snprintf(text.data(), text.size(), "%s, %zu regions, %zu pairs that touch",
+                  text::name(graph->status).data(), graph->regions.size(), graph->arcs.size());
+    return {static_cast<uint64_t>(graph->status), text.data()};
   }
 };
 

@@ -230,8 +230,11 @@ struct FilterShell {
     const bool isUsable = !GST_BUFFER_FLAG_IS_SET(buffer, GST_BUFFER_FLAG_GAP) &&
                           !GST_BUFFER_FLAG_IS_SET(buffer, GST_BUFFER_FLAG_CORRUPTED);
     const bool isDownstreamNew = filter.isDownstreamNew_.exchange(false);
-    const GstFlowReturn flow = filter.process(
-        {buffer, filter.info_, tick.time, filter.isFirst_, isDownstreamNew, isUsable});
+    const FilterFrame frame{buffer,          filter.info_,    tick.time,
+                            filter.isFirst_, isDownstreamNew, isUsable};
+    const GstClockTime before = gst_util_get_timestamp();
+    const GstFlowReturn flow = filter.process(frame);
+    filter.finish(frame, gst_util_get_timestamp() - before);
     filter.isFirst_ = false;
     return flow;
   }

@@ -76,6 +76,11 @@ class Filter {
   virtual void reset(Reset what) { (void)what; }
   virtual void endOfStream() {}
   virtual GstFlowReturn process(const FilterFrame& frame) = 0;
+  /// Behind process(): how long that took.
+  virtual void finish(const FilterFrame& frame, GstClockTime took) {
+    (void)frame;
+    (void)took;
+  }
   /// What leaves instead of a processed frame; takes the frame.
   [[nodiscard]] virtual GstBuffer* render(GstBuffer* frame) { return frame; }
   /// The action signal, on any thread.

@@ -34,7 +34,7 @@ void ObjectMessages::tell(const objects::Objects& objects, GstClockTime pts) {
         tellGroup("regiongraph-split", event);
         break;
       case objects::EventKind::SceneChanged:
-        post("regiongraph-scene-changed", gst_structure_new_empty("regiongraph-scene-changed"));
+        post(gst_structure_new_empty("regiongraph-scene-changed"));
         break;
     }
   }
@@ -46,13 +46,12 @@ void ObjectMessages::endAll() {
   alive_.clear();
 }
 
-void ObjectMessages::post(const char* name, GstStructure* fields) const {
-  GST_DEBUG_OBJECT(element_, "%s", name);
-  postTimedMessage(element_, pts_, fields);
+void ObjectMessages::post(GstStructure* fields) const {
+  postTimedMessage(element_, category_, pts_, fields);
 }
 
 void ObjectMessages::tellObject(const char* name, uint64_t id) const {
-  post(name, gst_structure_new(name, "id", G_TYPE_UINT64, static_cast<guint64>(id), nullptr));
+  post(gst_structure_new(name, "id", G_TYPE_UINT64, static_cast<guint64>(id), nullptr));
 }
 
 void ObjectMessages::tellGroup(const char* name, const objects::Event& event) const {
@@ -66,7 +65,7 @@ void ObjectMessages::tellGroup(const char* name, const objects::Event& event) co
   }
   GstStructure* fields = gst_structure_new_empty(name);
   gst_structure_take_value(fields, "ids", &ids);
-  post(name, fields);
+  post(fields);
 }
 
 void ObjectMessages::tellCamera(const objects::Objects& objects) {
@@ -76,9 +75,9 @@ void ObjectMessages::tellCamera(const objects::Objects& objects) {
   isCameraMoving_ = isMoving;
   constexpr double kUnit = motion::kMotionUnit;
   constexpr const char* kName = "regiongraph-background-motion";
-  post(kName, gst_structure_new(kName, "moving", G_TYPE_BOOLEAN, isMoving, "dx", G_TYPE_DOUBLE,
-                                objects.cameraDx / kUnit, "dy", G_TYPE_DOUBLE,
-                                objects.cameraDy / kUnit, nullptr));
+  post(gst_structure_new(kName, "moving", G_TYPE_BOOLEAN, isMoving, "dx", G_TYPE_DOUBLE,
+                         objects.cameraDx / kUnit, "dy", G_TYPE_DOUBLE, objects.cameraDy / kUnit,
+                         nullptr));
 }
 
 }  // namespace rg

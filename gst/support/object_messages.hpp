@@ -14,7 +14,8 @@ namespace rg {
 /// Posts element messages in the name of an element; see mrfmerge for their names and fields.
 class ObjectMessages {
  public:
-  explicit ObjectMessages(GstBaseTransform* element) : element_(element) {}
+  ObjectMessages(GstBaseTransform* element, GstDebugCategory* category)
+      : element_(element), category_(category) {}
 
   /// Tells the events of one frame.
   void tell(const objects::Objects& objects, GstClockTime pts);
@@ -22,12 +23,13 @@ class ObjectMessages {
   void endAll();
 
  private:
-  void post(const char* name, GstStructure* fields) const;
+  void post(GstStructure* fields) const;
   void tellObject(const char* name, uint64_t id) const;
   void tellGroup(const char* name, const objects::Event& event) const;
   void tellCamera(const objects::Objects& objects);
 
   GstBaseTransform* const element_;
+  GstDebugCategory* const category_;
   GstClockTime pts_ = GST_CLOCK_TIME_NONE;
   std::set<uint64_t> alive_;
   bool isCameraMoving_ = false;

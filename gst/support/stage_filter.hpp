@@ -11,6 +11,7 @@
 #include "gst/meta/result_meta.hpp"
 #include "gst/support/filter.hpp"
 #include "gst/support/lost_results.hpp"
+#include "gst/support/stage_stats.hpp"
 
 #include <memory>
 #include <string>
@@ -19,6 +20,7 @@ namespace rg {
 
 struct StageSettings {
   int threads = 0;
+  StageStats stats;
 };
 
 template <class Settings>
@@ -105,8 +107,10 @@ class StageFilter : public Filter {
     return skipped<Payload>(frame);
   }
 
+  /// The result of a frame that there is none of.
   template <class Payload>
-  [[nodiscard]] static std::shared_ptr<const Payload> skipped(const FilterFrame& frame) {
+  [[nodiscard]] std::shared_ptr<const Payload> skipped(const FilterFrame& frame) {
+    ++skippedFrames_;
     auto result = std::make_shared<Payload>();
     result->size = {GST_VIDEO_INFO_WIDTH(&frame.info), GST_VIDEO_INFO_HEIGHT(&frame.info)};
     return result;
@@ -116,10 +120,13 @@ class StageFilter : public Filter {
     if (!std::exchange(hasWarned_, true)) postWarning(text);
   }
   void forgetWarnings() { hasWarned_ = false; }
+  /// Frames since this was asked that skipped() was asked for.
+  [[nodiscard]] guint64 takeSkipped() { return std::exchange(skippedFrames_, 0); }
 
  private:
   bool hasWarned_ = false;        ///< In this stream: a broken stream must not flood the bus.
   bool hasCheckedOrder_ = false;  ///< Since the start.
+  guint64 skippedFrames_ = 0;
 };
 
 /// A stage element: its settings and the stage that is made when it starts.
@@ -135,18 +142,36 @@ class StageOwner : public StageFilter {
 
   bool start() override {
     this->forgetOrder();
+    (void)this->takeSkipped();
+    progress_.restart();
+    forgetStats();
     const Context context = makeContext(currentSettings().threads);
     executor_ = context.cpu;
     stage_ = makeStage_(context);
     return true;
   }
   void stop() override { stage_.reset(); }
+  void finish(const FilterFrame& frame, GstClockTime took) override {
+    StageStats stats;
+    {
+      const std::lock_guard lock(settingsMutex());
+      settings_.stats.add(took);
+      settings_.stats.dropped += takeSkipped();
+      stats = settings_.stats;
+    }
+    if (ProgressLog::isOn(category()))
+      progress_.tell(GST_ELEMENT(element()), category(), describe(frame),
+                     GST_BUFFER_PTS(frame.buffer), stats);
+  }
   void reset(Reset what) override {
     if (what == Reset::Stream) forgetWarnings();
     if (stage_) stage_->reset(what);
   }
 
  protected:
+  /// What was found in a frame, in words.
+  [[nodiscard]] virtual Progress describe(const FilterFrame& frame) = 0;
+
   [[nodiscard]] Settings currentSettings() { return snapshot(settings_); }
   [[nodiscard]] Stage& stage() { return *stage_; }
   [[nodiscard]] const Executor& executor() const { return *executor_; }
@@ -154,6 +179,12 @@ class StageOwner : public StageFilter {
   Settings settings_;
 
  private:
+  void forgetStats() {
+    const std::lock_guard lock(settingsMutex());
+    settings_.stats = {};
+  }
+
+  ProgressLog progress_;
   const Factory makeStage_;
   std::shared_ptr<const Executor> executor_;
   std::unique_ptr<Stage> stage_;

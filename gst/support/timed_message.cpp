@@ -5,7 +5,8 @@
 
 namespace rg {
 
-void postTimedMessage(GstBaseTransform* element, GstClockTime pts, GstStructure* fields) {
+void postTimedMessage(GstBaseTransform* element, GstDebugCategory* category, GstClockTime pts,
+                      GstStructure* fields) {
   const GstSegment* segment = &element->segment;
   // Backwards from nowhere is no time; GStreamer calls it critical.
   const bool hasOrigin = segment->rate > 0 || GST_CLOCK_TIME_IS_VALID(segment->stop);
@@ -17,6 +18,7 @@ void postTimedMessage(GstBaseTransform* element, GstClockTime pts, GstStructure*
       hasTimes ? gst_segment_to_running_time(segment, GST_FORMAT_TIME, pts) : GST_CLOCK_TIME_NONE;
   gst_structure_set(fields, "pts", G_TYPE_UINT64, static_cast<guint64>(pts), "stream-time",
                     G_TYPE_UINT64, streamTime, "running-time", G_TYPE_UINT64, runningTime, nullptr);
+  GST_CAT_DEBUG_OBJECT(category, element, "%" GST_PTR_FORMAT, static_cast<gpointer>(fields));
   gst_element_post_message(GST_ELEMENT(element),
                            gst_message_new_element(GST_OBJECT(element), fields));
 }

@@ -7,6 +7,7 @@
 namespace rg {
 
 /// Posts in the element's name, with pts, stream-time and running-time added. Takes the structure.
-void postTimedMessage(GstBaseTransform* element, GstClockTime pts, GstStructure* fields);
+void postTimedMessage(GstBaseTransform* element, GstDebugCategory* category, GstClockTime pts,
+                      GstStructure* fields);
 
 }  // namespace rg
