@@ -44,6 +44,8 @@ default_clip() {
   echo "$clip"
 }
 
+# At the end the encoder is given no frame, so that it gives out those that it holds; OpenH264 calls
+# that an error, which it is none.
 run_pipeline() {  # VIDEO OUTPUT
   in_build gst-launch-1.0 -q -e \
     filesrc location="$1" ! decodebin ! videoconvert ! queue ! \
@@ -51,7 +53,7 @@ run_pipeline() {  # VIDEO OUTPUT
     regionwrite format=jsonl location="$2/objects.jsonl" ! \
     regionoverlay ! progressreport name=demo update-freq=2 ! queue ! \
     videoconvert ! openh264enc bitrate=6000000 complexity=low ! h264parse ! mp4mux ! \
-    filesink location="$2/annotated.mp4"
+    filesink location="$2/annotated.mp4" 2> >(grep -v 'OpenH264.*cmInitParaError' >&2)
 }
 
 (($# <= 1)) || fail 'usage: demo.sh [VIDEO]'
@@ -69,7 +71,7 @@ mkdir -p "$output"
 rm -f "$output"/{objects.jsonl,annotated.mp4,still.png}
 echo "$program: $video"
 run_pipeline "$video" "$output" || fail "the pipeline failed on $video"
-/usr/bin/python3 "$root/examples/still.py" "$output"
+/usr/bin/python3 "$here/still.py" "$output"
 echo "$program: done. Look at the files in $output:"
 echo '  annotated.mp4  the video with boxes, numbers and trails'
 echo '  still.png      one frame of it'

@@ -110,7 +110,10 @@ def main():
                 frame = choose(lines, options.frame)
     except (OSError, ValueError, KeyError) as error:
         sys.exit(f'graph.py: {options.lines} is not what regionwrite format=graph wrote: {error!r}')
-    print('\n'.join((dot if options.dot else svg)(frame)))
+    print('\n'.join((dot if options.dot else svg)(frame)), flush=True)
+    if options.lines == '-':  # Whoever writes the lines shall not be cut off.
+        for _ in sys.stdin:
+            pass
 
 
 if __name__ == '__main__':

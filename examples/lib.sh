@@ -2,7 +2,8 @@
 # What the example scripts share. Sourced, not run.
 # shellcheck shell=bash
 
-root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+root=$(dirname "$here")
 build=$(realpath -m "${BUILD_DIR:-$root/build-release}")
 program=$(basename "$0")
 
@@ -11,8 +12,16 @@ fail() {
   exit 1
 }
 
+# Whether the scripts lie in the source tree; a copy elsewhere runs with the installed elements.
+is_source() { [[ -x $root/tests/setup.sh && -f $root/meson.build ]]; }
+
 # Installs what is missing and builds the elements, without tests, into a folder of their own.
 build_elements() {
+  if ! is_source; then
+    gst-inspect-1.0 regiontrack >/dev/null 2>&1 ||
+      fail 'the elements are not installed: see the README, or run this in the source tree'
+    return
+  fi
   "$root/tests/setup.sh"
   if [[ ! -f $build/build.ninja ]]; then
     meson setup "$build" "$root" --buildtype=release -Dtests=disabled -Dbenchmarks=disabled
@@ -21,7 +30,13 @@ build_elements() {
 }
 
 # Runs a command where the elements are found without being installed, in the caller's folder.
-in_build() { meson devenv -C "$build" --workdir "$PWD" "$@"; }
+in_build() {
+  if is_source; then
+    meson devenv -C "$build" --workdir "$PWD" "$@"
+  else
+    "$@"
+  fi
+}
 
 # Fails with a clear word when the file can't be read; prints its absolute path otherwise.
 readable_file() {
