@@ -162,7 +162,7 @@ class BgRemove final : public PixelFilter<Settings, background::Stage> {
       attachSkipped<background::Foreground>(frame);
     } else if (auto picture = load(frame)) {
       auto result = stage().process(*std::move(picture), settings, frame.time);
-      if (result) tell((*result)->scene, GST_BUFFER_PTS(frame.buffer));
+      if (result) tell((*result)->scene, frame.buffer);
       attach<background::Foreground>(frame, std::move(result));
     } else {
       attach<background::Foreground>(frame, picture.error());
@@ -201,14 +201,14 @@ class BgRemove final : public PixelFilter<Settings, background::Stage> {
     return {state, text.data()};
   }
 
-  void tell(const background::Scene& scene, GstClockTime pts) {
+  void tell(const background::Scene& scene, GstBuffer* buffer) {
     const char* name = messageOf(scene.event);
     if (!name) return;
     GstStructure* fields = gst_structure_new_empty(name);
     if (scene.event == background::SceneEvent::TooDark ||
         scene.event == background::SceneEvent::BrightAgain)
       gst_structure_set(fields, "dark", G_TYPE_BOOLEAN, scene.isDark, nullptr);
-    postTimedMessage(element(), category(), pts, fields);
+    postTimedMessage(element(), category(), momentOf(buffer), fields);
   }
 
   InterestMask interest_;

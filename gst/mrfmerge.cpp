@@ -7,10 +7,14 @@
  * attached as a meta of this plugin and as GstVideoRegionOfInterestMeta of type "object", whose id
  * is the object's number and whose params hold DL Streamer's "detection" and "object_id".
  *
- * What happens is told by element messages, each with the fields pts, stream-time and running-time:
- * regiongraph-object-new and regiongraph-object-end (id), regiongraph-merge and regiongraph-split
- * (ids), regiongraph-background-motion (moving, dx, dy: pixels since the previous frame) and
- * regiongraph-scene-changed.
+ * What happens is told by element messages, each with the fields pts, stream-time and running-time,
+ * and utc (text, RFC 3339) where the frames have a capture time: regiongraph-object-new and
+ * regiongraph-object-end (id, state, and the box as x, y, w, h in pixels; the last known ones at
+ * the end), regiongraph-merge and regiongraph-split (ids, states, and the box round all of them),
+ * regiongraph-background-motion (moving, dx, dy: pixels since the previous frame) and
+ * regiongraph-scene-changed. Things that touch and part several times a second are told once: a
+ * merge or split that follows another one of the same objects within two seconds is told when it
+ * has lasted as long. The events in the objects' meta and in regionwrite's lines are all of them.
  *
  * Where tens of thousands of regions are asked for and one touches most of the others, the search
  * for the best groups is ended early, so that a frame's time stays in proportion to its regions;
@@ -234,7 +238,8 @@ class MrfMerge final : public ChainedFilter<Settings, objects::Stage, motion::Mo
 
   void publish(GstBuffer* buffer, std::shared_ptr<const objects::Objects> objects) {
     addRoiMetas(buffer, info_, *objects);
-    messages_.tell(*objects, GST_BUFFER_PTS(buffer));
+    messages_.tell(*objects, {GST_VIDEO_INFO_WIDTH(&info_), GST_VIDEO_INFO_HEIGHT(&info_)},
+                   momentOf(buffer));
     attachResult<objects::Objects>(buffer, std::move(objects));
   }
 

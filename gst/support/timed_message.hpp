@@ -4,10 +4,21 @@
 
 #include <gst/base/gstbasetransform.h>
 
+#include <cstdint>
+#include <optional>
+
 namespace rg {
 
-/// Posts in the element's name, with pts, stream-time and running-time added. Takes the structure.
-void postTimedMessage(GstBaseTransform* element, GstDebugCategory* category, GstClockTime pts,
-                      GstStructure* fields);
+/// When a frame is shown and when it was taken.
+struct FrameMoment {
+  GstClockTime pts = GST_CLOCK_TIME_NONE;
+  std::optional<uint64_t> utcNs;
+};
+[[nodiscard]] FrameMoment momentOf(GstBuffer* frame);
+
+/// Posts in the element's name, with pts, stream-time and running-time added, and with utc where
+/// the stream tells it. Takes the structure.
+void postTimedMessage(GstBaseTransform* element, GstDebugCategory* category,
+                      const FrameMoment& moment, GstStructure* fields);
 
 }  // namespace rg
