@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "gst/support/contact_calm.hpp"
 
-#include "core/base/time.hpp"
+#include "core/base/time/time.hpp"
 
 #include <algorithm>
 
