@@ -4,9 +4,12 @@
 
 #include "gst/meta/result_meta.hpp"
 
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <memory>
 #include <new>
+#include <utility>
 
 namespace {
 
@@ -69,15 +72,18 @@ GstRegionStatus statusAndSize(const Payload& result, gint* width, gint* height) 
   return publicStatus(result.status);
 }
 
-/// What a mapped plane lives on.
+/// What a mapped plane and the bytes of it live on. The plane's own fields are not looked at again:
+/// whoever reads it may have written into them.
 struct Hold {
   virtual ~Hold() = default;
+  rg::ImageView<const std::byte> rows;  ///< One element a byte.
 };
 template <class Payload, class T>
 struct HoldOf final : Hold {
   std::shared_ptr<const Payload> owner;
   rg::Image<T> unpacked;
 };
+using Held = std::shared_ptr<const Hold>;
 
 /// Keeps the pixels alive for as long as the plane is mapped.
 template <class Payload, class T>
@@ -90,18 +96,47 @@ gboolean mapPlane(const std::shared_ptr<const Payload>& owner, rg::ResultPlane<T
     return FALSE;
   }
   try {
-    auto hold = std::make_unique<HoldOf<Payload, T>>();
+    auto hold = std::make_shared<HoldOf<Payload, T>>();
     hold->owner = owner;
     const rg::ImageView<const T> pixels = (owner.get()->*member).unpacked(hold->unpacked);
+    hold->rows = {reinterpret_cast<const std::byte*>(pixels.data),
+                  {pixels.width() * static_cast<int>(sizeof(T)), pixels.height()},
+                  pixels.strideBytes};
+    auto held = std::make_unique<Held>(std::move(hold));
     *plane = {pixels.data,     pixels.width(),
               pixels.height(), static_cast<gint>(pixels.strideBytes),
               sizeof(T),       {}};
-    plane->_private[0] = static_cast<Hold*>(hold.release());
+    plane->_private[0] = held.release();
     return TRUE;
   } catch (const std::bad_alloc&) {
     g_set_error_literal(error, GST_CORE_ERROR, GST_CORE_ERROR_FAILED, "out of memory");
     return FALSE;
   }
+}
+
+Held* heldBy(const GstRegionPlane* plane) {
+  return static_cast<Held*>(plane->_private[0]);
+}
+
+/// The rows where they are, when none is padded. Null when out of memory.
+GBytes* sharedBytes(const Held& held) {
+  auto* mine = new (std::nothrow) Held(held);
+  if (!mine) return nullptr;
+  const auto& rows = held->rows;
+  const auto size = static_cast<gsize>(rows.width()) * static_cast<gsize>(rows.height());
+  return g_bytes_new_with_free_func(
+      rows.data, size, [](gpointer taken) { delete static_cast<Held*>(taken); }, mine);
+}
+
+/// A copy of the rows without their padding. Null when out of memory.
+GBytes* copiedBytes(rg::ImageView<const std::byte> rows) {
+  const auto width = static_cast<gsize>(rows.width());
+  const gsize size = width * static_cast<gsize>(rows.height());
+  auto* copy = static_cast<std::byte*>(g_try_malloc(size));
+  if (!copy) return nullptr;
+  for (int y = 0; y < rows.height(); ++y)
+    std::memcpy(copy + static_cast<gsize>(y) * width, rows.row(y), width);
+  return g_bytes_new_take(copy, size);
 }
 
 const rg::objects::Object* objectAt(GstRegionObjectsMeta* meta, guint index) {
@@ -317,8 +352,16 @@ gboolean gst_region_objects_meta_map(GstRegionObjectsMeta* meta, GstRegionPlane*
                   error);
 }
 
+GBytes* gst_region_plane_get_bytes(const GstRegionPlane* plane) {
+  g_return_val_if_fail(plane, nullptr);
+  const Held* held = heldBy(plane);
+  if (!held) return nullptr;
+  const auto& rows = (*held)->rows;
+  return rows.strideBytes == rows.width() ? sharedBytes(*held) : copiedBytes(rows);
+}
+
 void gst_region_plane_unmap(GstRegionPlane* plane) {
   g_return_if_fail(plane);
-  delete static_cast<Hold*>(plane->_private[0]);
+  delete heldBy(plane);
   *plane = {};
 }

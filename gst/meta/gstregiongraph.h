@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
 /**
- * What the regiongraph elements say of a frame, as metas on its buffer.
+ * SECTION:gstregiongraph
+ * @title: Region graph metas
+ * @short_description: what the regiongraph elements say of a frame, as metas on its buffer
  *
  * bgremove attaches a foreground meta, hsvsegment labels, srg a graph, prmmotion motion, mrfmerge
  * objects. A meta is immutable; copies and scaled versions of the buffer share it, cropped ones
@@ -177,6 +179,33 @@ GST_REGION_API guint gst_region_graph_meta_get_n_regions(GstRegionGraphMeta* met
 GST_REGION_API gboolean gst_region_graph_meta_get_region(GstRegionGraphMeta* meta, guint index,
                                                          GstRegion* region);
 /**
+ * gst_region_get_box:
+ * @region: what gst_region_graph_meta_get_region() filled in
+ * @x: (out) (optional): left column
+ * @y: (out) (optional): top row
+ * @width: (out) (optional): columns
+ * @height: (out) (optional): rows
+ *
+ * Its box as plain numbers, for languages in which a struct inside another one does not outlive it.
+ *
+ * Since: 0.2
+ */
+GST_REGION_API void gst_region_get_box(const GstRegion* region, gint* x, gint* y, gint* width,
+                                       gint* height);
+/**
+ * gst_region_get_colour:
+ * @region: what gst_region_graph_meta_get_region() filled in
+ * @red: (out) (optional): 0 to 255
+ * @green: (out) (optional): 0 to 255
+ * @blue: (out) (optional): 0 to 255
+ *
+ * Its colour as plain numbers.
+ *
+ * Since: 0.2
+ */
+GST_REGION_API void gst_region_get_colour(const GstRegion* region, guint8* red, guint8* green,
+                                          guint8* blue);
+/**
  * gst_region_graph_meta_get_n_arcs:
  * @meta: a graph meta
  *
@@ -250,6 +279,33 @@ GST_REGION_API guint gst_region_objects_meta_get_n_objects(GstRegionObjectsMeta*
 GST_REGION_API gboolean gst_region_objects_meta_get_object(GstRegionObjectsMeta* meta, guint index,
                                                            GstRegionObject* object);
 /**
+ * gst_region_object_get_box:
+ * @object: what gst_region_objects_meta_get_object() filled in
+ * @x: (out) (optional): left column
+ * @y: (out) (optional): top row
+ * @width: (out) (optional): columns
+ * @height: (out) (optional): rows
+ *
+ * Its box as plain numbers, for languages in which a struct inside another one does not outlive it.
+ *
+ * Since: 0.2
+ */
+GST_REGION_API void gst_region_object_get_box(const GstRegionObject* object, gint* x, gint* y,
+                                              gint* width, gint* height);
+/**
+ * gst_region_object_get_colour:
+ * @object: what gst_region_objects_meta_get_object() filled in
+ * @red: (out) (optional): 0 to 255
+ * @green: (out) (optional): 0 to 255
+ * @blue: (out) (optional): 0 to 255
+ *
+ * Its colour as plain numbers.
+ *
+ * Since: 0.2
+ */
+GST_REGION_API void gst_region_object_get_colour(const GstRegionObject* object, guint8* red,
+                                                 guint8* green, guint8* blue);
+/**
  * gst_region_objects_meta_get_parent:
  * @meta: an objects meta
  * @index: 0 to the number of objects - 1
@@ -300,6 +356,20 @@ GST_REGION_API void gst_region_objects_meta_get_camera_motion(GstRegionObjectsMe
 GST_REGION_API gboolean gst_region_objects_meta_map(GstRegionObjectsMeta* meta,
                                                     GstRegionPlane* plane, GError** error);
 
+/**
+ * gst_region_plane_get_bytes:
+ * @plane: what a map function filled in
+ *
+ * The pixels for whoever can't walk along @plane's data, or reads them later: one row after the
+ * other, width * pixel_bytes bytes each, without what lies between rows in @plane. They stay as
+ * they are for as long as the bytes are kept, also when @plane is unmapped and the buffer is gone.
+ * Rows that have nothing between them are not copied.
+ *
+ * Returns: (transfer full) (nullable): the pixels; NULL when @plane is not mapped or memory is out
+ *
+ * Since: 0.2
+ */
+GST_REGION_API GBytes* gst_region_plane_get_bytes(const GstRegionPlane* plane);
 /**
  * gst_region_plane_unmap:
  * @plane: what a map function filled in

@@ -67,17 +67,30 @@ typedef enum {
   GST_REGION_OBJECT_STATE_LOST
 } GstRegionObjectState;
 
+/**
+ * GstRegionBox:
+ * @x: left column
+ * @y: top row
+ * @width: columns
+ * @height: rows
+ */
 typedef struct {
   gint x, y, width, height;
 } GstRegionBox;
 
+/**
+ * GstRegionColour:
+ * @red: 0 to 255
+ * @green: 0 to 255
+ * @blue: 0 to 255
+ */
 typedef struct {
   guint8 red, green, blue;
 } GstRegionColour;
 
 /**
  * GstRegionPlane:
- * @data: (array): the first row
+ * @data: the first row; gst_region_plane_get_bytes() is for languages without pointers
  * @width: pixels in a row
  * @height: rows
  * @stride: bytes from one row to the next

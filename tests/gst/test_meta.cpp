@@ -3,10 +3,13 @@
 #include "gst/meta/result_meta.hpp"
 #include "tests/support/harness.hpp"
 
+#include <gmock/gmock.h>
 #include <gst/video/gstvideometa.h>
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <utility>
+#include <vector>
 
 namespace rg {
 namespace {
@@ -42,6 +45,13 @@ TEST(GraphMeta, TellsRegionsAndArcs) {
   EXPECT_EQ(region.box.x, 4);
   EXPECT_DOUBLE_EQ(region.centroid_x, 5.5);
   EXPECT_EQ(region.colour.green, 5);
+  gst_region_get_box(&region, &width, nullptr, nullptr, &height);
+  EXPECT_EQ(width, 4);
+  EXPECT_EQ(height, 4);
+  guint8 red = 0, blue = 0;
+  gst_region_get_colour(&region, &red, nullptr, &blue);
+  EXPECT_EQ(red, 4);
+  EXPECT_EQ(blue, 6);
   EXPECT_FALSE(gst_region_graph_meta_get_region(meta, 2, &region));
   GstRegionArc arc;
   ASSERT_TRUE(gst_region_graph_meta_get_arc(meta, 0, &arc));
@@ -86,6 +96,10 @@ TEST(ObjectsMeta, TellsObjectsParentsAndContours) {
   EXPECT_EQ(out.id, 7u);
   EXPECT_EQ(out.state, GST_REGION_OBJECT_STATE_STOPPED);
   EXPECT_EQ(out.box.x, -2);
+  gint boxX = 0, boxWidth = 0;
+  gst_region_object_get_box(&out, &boxX, nullptr, &boxWidth, nullptr);
+  EXPECT_EQ(boxX, -2);
+  EXPECT_EQ(boxWidth, 10);
   EXPECT_DOUBLE_EQ(out.centroid_x, 2.5);
   EXPECT_DOUBLE_EQ(out.velocity_x, -2.0);
   EXPECT_EQ(out.n_parents, 2u);
@@ -129,6 +143,81 @@ TEST(Plane, OutlivesItsBuffer) {
   gst_region_plane_unmap(&plane);
   EXPECT_EQ(plane.data, nullptr);
   gst_region_plane_unmap(&plane);
+}
+
+struct FreeBytes {
+  void operator()(GBytes* bytes) const { g_bytes_unref(bytes); }
+};
+using BytesPtr = std::unique_ptr<GBytes, FreeBytes>;
+
+template <class T>
+std::vector<T> pixelsOf(const BytesPtr& bytes) {
+  gsize size = 0;
+  const auto* pixels = static_cast<const T*>(g_bytes_get_data(bytes.get(), &size));
+  return {pixels, pixels + size / sizeof(T)};
+}
+
+BytesPtr maskBytes(std::shared_ptr<background::Foreground> foreground) {
+  const BufferPtr buffer(gst_buffer_new());
+  attachResult<background::Foreground>(buffer.get(), std::move(foreground));
+  GstRegionPlane plane;
+  EXPECT_TRUE(gst_region_foreground_meta_map(gst_buffer_get_region_foreground_meta(buffer.get()),
+                                             &plane, nullptr));
+  plane.height = 1000;  // A reader may write anything into what it was given.
+  plane.data = nullptr;
+  BytesPtr bytes(gst_region_plane_get_bytes(&plane));
+  gst_region_plane_unmap(&plane);
+  EXPECT_EQ(gst_region_plane_get_bytes(&plane), nullptr);
+  return bytes;
+}
+
+TEST(PlaneBytes, HaveNothingBetweenRows) {
+  const BytesPtr bytes = maskBytes(smallMask());
+  EXPECT_THAT(pixelsOf<guint8>(bytes), ::testing::ElementsAre(0, 0, 0, 0, 0, 255));
+}
+
+TEST(PlaneBytes, ShareRowsThatAreNotPadded) {
+  auto foreground = smallMask();
+  foreground->mask.resize({64, 2});
+  foreground->mask.fill(background::kBackgroundPixel);
+  foreground->mask.at(63, 1) = background::kForegroundPixel;
+  const guint8* const pixels = foreground->mask.row(0);
+  const std::weak_ptr<background::Foreground> payload = foreground;
+  BytesPtr bytes = maskBytes(std::move(foreground));
+  EXPECT_EQ(g_bytes_get_data(bytes.get(), nullptr), pixels);
+  EXPECT_EQ(pixelsOf<guint8>(bytes).size(), 128u);
+  EXPECT_EQ(pixelsOf<guint8>(bytes).back(), 255);
+  bytes.reset();
+  EXPECT_TRUE(payload.expired());
+}
+
+template <class T>
+void pack(ResultPlane<T>& plane) {
+  ResultPlane<T> packed;
+  PlanePacker().pack(plane, packed);
+  plane = std::move(packed);
+}
+
+TEST(PlaneBytes, AreReadFromPackedResults) {
+  auto labels = std::make_shared<segmentation::Labels>();
+  labels->size = {32, 2};
+  labels->status = Status::Ok;
+  labels->ids.resize(labels->size);
+  labels->ids.fill(0);
+  labels->ids.at(31, 1) = 259;
+  pack(labels->ids);
+  ASSERT_TRUE(labels->ids.isPacked());
+  BufferPtr buffer(gst_buffer_new());
+  attachResult<segmentation::Labels>(buffer.get(), std::move(labels));
+  GstRegionPlane plane;
+  ASSERT_TRUE(
+      gst_region_labels_meta_map(gst_buffer_get_region_labels_meta(buffer.get()), &plane, nullptr));
+  const BytesPtr bytes(gst_region_plane_get_bytes(&plane));
+  gst_region_plane_unmap(&plane);
+  buffer.reset();
+  std::vector<guint16> expected(64, 0);
+  expected.back() = 259;
+  EXPECT_EQ(pixelsOf<guint16>(bytes), expected);
 }
 
 TEST(Plane, OfASkippedFrameIsAnError) {
