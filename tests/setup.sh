@@ -9,6 +9,7 @@ packages=(
   g++ clang meson ninja-build pkg-config git
   libgstreamer1.0-dev libgstreamer-plugins-base1.0-dev libglib2.0-dev
   libopencv-dev libhwy-dev libtbb-dev libpng-dev
+  gobject-introspection libgirepository1.0-dev
   # checks and tests
   clang-format clang-tidy libclang-rt-dev libgtest-dev libgmock-dev nlohmann-json3-dev
   binutils locales valgrind libc6-dbg
