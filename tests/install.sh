@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Installs a build into a scratch folder and uses what is there as a stranger would: gst-inspect
-# finds every element, and an application builds against the pkg-config file and reads objects.
+# finds every element, an application builds against the pkg-config file and reads objects, and
+# Python finds the typelib.
 #
 # usage: install.sh VIDEO                       (BUILD_DIR as for run.sh)
 set -euo pipefail
@@ -34,4 +35,11 @@ read -r -a flags <<<"$(pkg-config --cflags --libs gstregiongraph-1.0 gstreamer-a
 "${CXX:-g++}" -std=c++17 "$root/examples/read_objects.cpp" "${flags[@]}" -o "$target/reader"
 "$target/reader" "$video" >"$target/objects"
 grep -q '^frame' "$target/objects" || { echo 'install: the reader found nothing' >&2; exit 1; }
+if [[ $(option introspection) != disabled ]]; then
+  test -f "$target$prefix/$(option datadir)/gir-1.0/GstRegionGraph-1.0.gir"
+  export GI_TYPELIB_PATH=$libraries/girepository-1.0
+  (cd "$target" && /usr/bin/python3 "$root/examples/python/masks.py" "$video" >"$target/boxes")
+  grep -q '^object' "$target/boxes" || { echo 'install: Python found nothing' >&2; exit 1; }
+  test -s "$target/labels.npy" && test -s "$target/mask.pgm"
+fi
 echo "install: 10 elements, an application that read $(wc -l <"$target/objects") objects"
