@@ -42,7 +42,13 @@ guint mapAndRead(Meta* meta, const Map& map) {
   }
   const guint largest =
       plane.pixel_bytes == 2 ? largestOf<guint16>(plane) : largestOf<guint8>(plane);
+  GBytes* bytes = gst_region_plane_get_bytes(&plane);
+  demand(bytes && g_bytes_get_size(bytes) == static_cast<gsize>(plane.width) *
+                                                 static_cast<gsize>(plane.height) *
+                                                 plane.pixel_bytes,
+         "bytes are as many as the plane has");
   gst_region_plane_unmap(&plane);
+  g_bytes_unref(bytes);
   return largest;
 }
 
