@@ -6,9 +6,9 @@ usage: layers.py [ROOT]      (default: the repository that this file is in)
 
 Arrows only point left: core <- kernels <- gst <- examples; tests may see all. Inside core too:
 base <- background <- segmentation <- graph <- motion <- objects <- text, and of another room only
-its contract is included (core/motion/motion.hpp), but all of base. No element includes another one,
-except regiontrack, which is made of them, and plugin, which registers them. No two types of core
-have one qualified name.
+its contract is included (core/motion/motion.hpp), but all of base; kernels take arithmetic from
+all of core. No element includes another one, except regiontrack, which is made of them, and plugin,
+which registers them. No two types of core have one qualified name.
 Prints one line per finding and exits 1 when there is any.
 """
 import collections
@@ -84,7 +84,7 @@ def arrow_findings(relative, lines):
             yield number, f'a public header must not include {target}'
         if quote == '<' and layer in FOREIGN and re.match(FOREIGN[layer], target):
             yield number, f'{layer} must not include <{target}>'
-        if quote == '"' and top == 'core':
+        if quote == '"' and top == 'core' and layer != 'kernels':
             yield from room_findings(relative, number, target)
         if layer == 'gst' and quote == '"':
             yield from element_findings(relative, number, target)

@@ -10,6 +10,15 @@
 
 namespace rg {
 
+/// Where a picture's pixels go; a grey one has luma only.
+struct PicturePlanes {
+  ImageView<uint8_t> red, green, blue, luma;
+};
+
+/// Converts a frame. Y'CbCr by the layout's matrix and range, a chroma sample serves its 2x2
+/// pixels. Each pixel depends on its own samples only: the same bits for any number of threads.
+void loadPlanes(const Frame& frame, const Executor& executor, const PicturePlanes& to);
+
 /// Full-range R'G'B' of 8 bits. The first stage makes it, later stages find it in the results, so
 /// that all of them see the same pixels. A grey picture holds luma only: all its colour planes are
 /// that one plane.
@@ -23,8 +32,7 @@ class Picture {
   /// (77 R + 150 G + 29 B + 128) / 256; of Y'CbCr and grey frames Y' as it is stored.
   [[nodiscard]] ImageView<const uint8_t> luma() const { return luma_; }
 
-  /// Converts a frame. Y'CbCr by the layout's matrix and range, a chroma sample serves its 2x2
-  /// pixels. Each pixel depends on its own samples only: the same bits for any number of threads.
+  /// Takes the frame's size and pixels (loadPlanes).
   void load(const Frame& frame, const Executor& executor);
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/background/models/consensus_background.hpp"
 
-#include "core/base/pixel.hpp"
+#include "core/background/models/consensus_turns.hpp"
 
 #include <hwy/cache_control.h>
 
@@ -11,18 +11,10 @@
 namespace rg::background {
 namespace {
 
-constexpr uint32_t kNoisePeriod = 16, kFirstNoisePeriod = 4;  ///< Frames from turn to turn.
-constexpr uint32_t kLearnPeriod = 8;
-constexpr uint8_t kCalmPeriod = 8;  ///< Also what unrest loses a turn.
-constexpr int kFlip = 16;           ///< What it gains by a flip.
-
 template <class Index>
 size_t at(Index i) {
   return static_cast<size_t>(i);
 }
-
-constexpr std::array<Point, 8> kNeighbours{
-    {{-1, -1}, {0, -1}, {1, -1}, {-1, 0}, {1, 0}, {-1, 1}, {0, 1}, {1, 1}}};
 
 /// Copies `count` pixels of a row from column x on; beyond its ends the row goes on as it ends.
 void copyRepeated(const uint8_t* row, int width, int x, int count, uint8_t* out) {
@@ -33,10 +25,9 @@ void copyRepeated(const uint8_t* row, int width, int x, int count, uint8_t* out)
   for (int i = 0; i < count; ++i) out[i] = row[std::clamp(x + i, 0, width - 1)];
 }
 
-/// The first two samples of a row are the picture itself, the others its eight neighbours in turn.
 void fillSample(const SmoothPicture& picture, int y, int sample, ConsensusBackground& model) {
   const Size size = picture.size();
-  const Point offset = sample < 2 ? Point{} : kNeighbours[at((sample - 2) % 8)];
+  const Point offset = fillOffset(sample);
   const int from = std::clamp(y + offset.y, 0, size.height - 1);
   for (int c = 0; c < model.channels; ++c)
     for (int word = 0; word * kWordColumns < size.width; ++word)
@@ -87,12 +78,11 @@ class Learner {
       : picture_(picture),
         foreground_(foreground),
         rate_(rate),
-        period_(std::min(kLearnPeriod, static_cast<uint32_t>(rate.interval))),
-        limit_(65536u * period_ / static_cast<uint32_t>(rate.interval)),
+        turns_(turnsOf(rate.interval)),
         model_(model) {}
 
   void learnRow(int y) {
-    if ((static_cast<uint32_t>(y) + rate_.frame) % period_ != 0) return;
+    if ((static_cast<uint32_t>(y) + rate_.frame) % turns_.period != 0) return;
     draw(y, 0, Which::All);
     // Restless pixels see more colours and must learn them faster.
     draw(y, 2, Which::Restless);
@@ -103,9 +93,7 @@ class Learner {
 
   /// Once for the pixels' own colours, and once for those of a neighbour.
   void draw(int y, uint32_t round, Which which) {
-    const uint64_t seed = uint64_t{rate_.frame} << 32 | static_cast<uint32_t>(y) << 2 | round;
-    const uint64_t own = mixHash64(seed), other = mixHash64(seed + 1);
-    const Point offset = kNeighbours[other >> 8 & 7];
+    const auto [own, other, offset] = drawOf(rate_.frame, y, round);
     const bool hasOther = y + offset.y >= 0 && y + offset.y < picture_.size().height;
     if (which == Which::All) {
       fetch(y, own);
@@ -133,12 +121,11 @@ class Learner {
     }
   }
 
-  /// Four dice of 16 bits, each for 16 columns.
   [[nodiscard]] uint64_t columnsOf(uint64_t seed, int word) const {
-    const uint64_t dice = mixHash64(seed + static_cast<uint32_t>(word));
+    const uint64_t dice = diceOf(seed, word);
     uint64_t columns = 0;
     for (int i = 0; i < 64; i += 16)
-      columns |= (dice >> i & 0xFFFF) < limit_ ? uint64_t{0xFFFF} << i : 0;
+      columns |= isDrawn(dice, i, turns_.limit) ? uint64_t{0xFFFF} << i : 0;
     return columns;
   }
 
@@ -175,8 +162,7 @@ class Learner {
   const SmoothPicture& picture_;
   const BitMask& foreground_;
   const ConsensusRate& rate_;
-  uint32_t period_;
-  uint32_t limit_;  ///< Of 65536: chance in a turn.
+  LearningTurns turns_;
   ConsensusBackground& model_;
 };
 
@@ -185,16 +171,14 @@ void raiseUnrest(const LearntFrame& seen, int y, ConsensusBackground& model) {
   for (int word = 0; word < seen.raw.wordsPerRow(); ++word) {
     const uint64_t flips = seen.raw.row(y)[word] ^ seen.previousRaw.row(y)[word];
     forSetBits(flips & ~seen.foreground.row(y)[word], word * kWordColumns,
-               [&](int x) { unrest[x] = static_cast<uint8_t>(std::min(255, unrest[x] + kFlip)); });
+               [&](int x) { unrest[x] = raisedUnrest(unrest[x]); });
   }
 }
 
 void calmUnrest(const BitMask& foreground, int y, ConsensusBackground& model) {
   for (int word = 0; word < foreground.wordsPerRow(); ++word) {
     uint8_t* unrest = model.unrest.row(y) + word * kWordColumns;
-    const auto calm = [&](int x) {
-      unrest[x] = static_cast<uint8_t>(std::max(unrest[x], kCalmPeriod) - kCalmPeriod);
-    };
+    const auto calm = [&](int x) { unrest[x] = calmedUnrest(unrest[x]); };
     const uint64_t kept = foreground.row(y)[word];
     if (kept == 0)
       for (int x = 0; x < kWordColumns; ++x) calm(x);

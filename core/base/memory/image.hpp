@@ -27,12 +27,12 @@ struct ImageView {
 
   [[nodiscard]] constexpr int width() const { return size.width; }
   [[nodiscard]] constexpr int height() const { return size.height; }
-  [[nodiscard]] T* row(int y) const {
+  [[nodiscard]] constexpr T* row(int y) const {
     assert(y >= 0 && y < size.height);
     using Byte = std::conditional_t<std::is_const_v<T>, const std::byte, std::byte>;
     return reinterpret_cast<T*>(reinterpret_cast<Byte*>(data) + y * strideBytes);
   }
-  [[nodiscard]] T& at(int x, int y) const {
+  [[nodiscard]] constexpr T& at(int x, int y) const {
     assert(x >= 0 && x < size.width);
     return row(y)[x];
   }
@@ -41,7 +41,7 @@ struct ImageView {
     assert(intersect(box, boundsOf(size)) == box || box.isEmpty());
     return {box.isEmpty() ? data : row(box.y) + box.x, {box.width, box.height}, strideBytes};
   }
-  operator ImageView<const T>() const  // NOLINT(google-explicit-constructor)
+  constexpr operator ImageView<const T>() const  // NOLINT(google-explicit-constructor)
       requires(!std::is_const_v<T>) {
     return {data, size, strideBytes};
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/simd/background/consensus_rows.hpp"
 
+#include "core/background/models/consensus_turns.hpp"
 #include "core/base/pixel.hpp"
 #include "core/simd/base/targets.hpp"
 
@@ -263,7 +264,7 @@ void plain::judgeRow(const ModelRow& row, const RadiusRow& radius, const Verdict
       second = std::min(second, std::max(nearest, d));
       nearest = std::min(nearest, d);
     }
-    const bool isRaw = second > reach, isFar = second > std::min(254, 5 * reach / 2);
+    const bool isRaw = second > reach, isFar = second > farRadius(reach);
     out.raw[x / 64] |= uint64_t{isRaw} << x % 64;
     out.strong[x / 64] |= uint64_t{isRaw && isFar} << x % 64;
     out.faint[x / 64] |= uint64_t{second > faintRadius(reach)} << x % 64;
@@ -276,9 +277,7 @@ void plain::followNoiseRow(const ModelRow& row, const NoiseRow& out) {
     int nearest = 31;
     for (int sample = 0; sample < row.sampleCount; ++sample)
       nearest = std::min(nearest, distanceAt(row, sample, x));
-    const int off = 8 * nearest - out.noise[x];
-    const int step = (absDiff(off, 0) + 3) / 4;
-    out.noise[x] = static_cast<uint8_t>(out.noise[x] + (off > 0 ? step : -step));
+    out.noise[x] = followedNoise(out.noise[x], nearest);
   }
 }
 

@@ -38,10 +38,17 @@ struct RadiusRow {
 [[nodiscard]] constexpr int faintRadius(int radius) {
   return radius - ((radius < 248 ? radius + 7 : 255) >> 3);
 }
-[[nodiscard]] constexpr int radiusAt(const RadiusRow& radius, uint8_t pixel, int x) {
-  const int sum = radius.least + (pixel * radius.brightness >> 8) + (radius.noise[x] >> 2) +
-                  (radius.unrest[x] >> 4);
+/// What counts as far: 2.5 times the radius, but never the largest distance.
+[[nodiscard]] constexpr int farRadius(int radius) {
+  return 5 * radius / 2 < 254 ? 5 * radius / 2 : 254;
+}
+[[nodiscard]] constexpr int radiusOf(int tolerance, int noise, int unrest) {
+  const int sum = tolerance + (noise >> 2) + (unrest >> 4);
   return sum < 255 ? sum : 255;
+}
+[[nodiscard]] constexpr int radiusAt(const RadiusRow& radius, uint8_t pixel, int x) {
+  return radiusOf(radius.least + (pixel * radius.brightness >> 8), radius.noise[x],
+                  radius.unrest[x]);
 }
 
 /// Where fewer than two samples are within the radius, 2.5 times the radius, 7/8 of it.

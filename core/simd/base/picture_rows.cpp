@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/simd/base/picture_rows.hpp"
 
-#include "core/base/pixel.hpp"
 #include "core/simd/base/targets.hpp"
 
-#include <algorithm>
+#include <cstddef>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/simd/base/picture_rows.cpp"
@@ -164,15 +163,6 @@ HWY_AFTER_NAMESPACE();
 namespace rg {
 namespace {
 
-constexpr uint8_t lumaOf(int red, int green, int blue) {
-  return static_cast<uint8_t>((77 * red + 150 * green + 29 * blue + 128) >> 8);
-}
-static_assert(lumaOf(255, 255, 255) == 255 && lumaOf(0, 0, 0) == 0 && lumaOf(255, 0, 0) == 77);
-
-uint8_t fromQ14(int value) {
-  return static_cast<uint8_t>(std::clamp(roundShift(value, 14), 0, 255));
-}
-
 HWY_EXPORT(loadPackedRow);
 HWY_EXPORT(loadYuvRow);
 
@@ -191,12 +181,11 @@ void plain::loadPackedRow(const uint8_t* from, int width, const PackedOrder& ord
 
 void plain::loadYuvRow(const YuvRows& from, int width, const YuvToRgb& k, const ColourRows& to) {
   for (int x = 0; x < width; ++x) {
-    const int y = (from.luma[x] - k.offset) * k.luma;
-    const int u = from.cb[(x >> 1) * from.chromaStep] - 128;
-    const int v = from.cr[(x >> 1) * from.chromaStep] - 128;
-    to.red[x] = fromQ14(y + v * k.redByCr);
-    to.green[x] = fromQ14(y - u * k.greenByCb - v * k.greenByCr);
-    to.blue[x] = fromQ14(y + u * k.blueByCb);
+    const ptrdiff_t chroma = ptrdiff_t{x >> 1} * from.chromaStep;
+    const Rgb colour = rgbOf(from.luma[x], from.cb[chroma], from.cr[chroma], k);
+    to.red[x] = colour.red;
+    to.green[x] = colour.green;
+    to.blue[x] = colour.blue;
     to.luma[x] = from.luma[x];
   }
 }

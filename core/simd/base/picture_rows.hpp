@@ -4,25 +4,14 @@
 // The same bits on every target. plain:: is the reference that the tests compare with.
 #pragma once
 
+#include "core/simd/base/conversion.hpp"
+
 #include <cstdint>
 
 namespace rg {
 
 struct ColourRows {
   uint8_t *red, *green, *blue, *luma;
-};
-
-/// Where red, green and blue lie within a packed pixel.
-struct PackedOrder {
-  int red, green, blue;
-  int bytesPerPixel;  ///< 3 or 4.
-};
-
-/// Inverse of Y'CbCr in Q14. Below 2^16 each, so that sums of three products fit 32 bits.
-struct YuvToRgb {
-  int offset;  ///< Luma of black.
-  int luma;    ///< Gain of luma.
-  int redByCr, greenByCb, greenByCr, blueByCb;
 };
 
 struct YuvRows {

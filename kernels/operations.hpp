@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Every operation of core on pixels that has a counterpart here: what both are called.
+//
+// The parity tests walk this list: an operation without core's version, without a kernel or without
+// a test does not compile or link. meson reads it too and names a test for each line.
+#pragma once
+
+#define RG_GPU_OPERATIONS(X)                                                       \
+  X(loadPlanes, rg::loadPlanes, rg::gpu::loadPlanes)                               \
+  X(countLevels, rg::countLevels, rg::gpu::countLevels)                            \
+  X(smooth, rg::background::smooth, rg::gpu::background::smooth)                   \
+  X(fillFrom, rg::background::fillFrom, rg::gpu::background::fillFrom)             \
+  X(judge, rg::background::judge, rg::gpu::background::judge)                      \
+  X(learn, rg::background::learn, rg::gpu::background::learn)                      \
+  X(replaceWhere, rg::background::replaceWhere, rg::gpu::background::replaceWhere) \
+  X(paintModel, rg::background::paintModel, rg::gpu::background::paintModel)       \
+  X(paintModelAt, rg::background::paintModelAt, rg::gpu::background::paintModelAt)

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// What a frame costs at least, from what each launch declares: bytes over a device's bandwidth,
+// integer operations over its rate, and a launch's own time. Modelled, never measured.
+//
+// usage: kernel-model [WIDTH HEIGHT]
+#include "kernels/kernels.hpp"
+#include "kernels/shim/block.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+
+namespace rg {
+namespace {
+
+/// Of the data sheets: bandwidth, and 64 integer lanes of each multiprocessor at its boost clock.
+/// Four fifths of the bandwidth is what copies reach.
+struct Device {
+  const char* name;
+  double bytesPerSecond, operationsPerSecond;
+};
+constexpr Device kDevices[] = {{"H200", 4.8e12 * 0.8, 132 * 64 * 1.98e9},
+                               {"H100", 3.35e12 * 0.8, 132 * 64 * 1.98e9}};
+constexpr double kLaunchUs = 2;  ///< Between kernels of one stream, without CUDA graphs.
+
+/// Device memory that nobody reads: in this mode kernels don't run.
+template <class T>
+ImageView<T> plane(Size size) {
+  return {nullptr, size, static_cast<ptrdiff_t>(size.width) * static_cast<ptrdiff_t>(sizeof(T))};
+}
+
+struct Memory {
+  Size size;
+  gpu::Planes planes{
+      {plane<const uint8_t>(size), plane<const uint8_t>(size), plane<const uint8_t>(size)}, 3};
+  gpu::PlaneTargets targets{{plane<uint8_t>(size), plane<uint8_t>(size), plane<uint8_t>(size)}, 3};
+  gpu::BitTarget bits{plane<uint64_t>({gpu::wordsOf(size.width), size.height}), size};
+  gpu::background::ModelView model{
+      size, 3,
+      plane<uint8_t>(
+          {gpu::wordsOf(size.width) * kWordColumns * background::kSamples * 3, size.height}),
+      plane<uint8_t>(size), plane<uint8_t>(size)};
+};
+
+void loadFrame(Size size) {
+  static const uint8_t nowhere = 0;
+  const auto stride = static_cast<int64_t>(size.width);
+  const PlaneMemory planes[] = {{&nowhere, UINT64_MAX, stride}, {&nowhere, UINT64_MAX, stride + 1}};
+  const Result<Frame> frame = Frame::make({PixelFormat::Nv12, size}, planes);
+  const ImageView<uint8_t> to = plane<uint8_t>(size);
+  gpu::loadPlanes(*frame, {to, to, to, to}, nullptr);
+}
+
+/// A frame's way through what there is of method hybrid.
+void launchFrame(Size size) {
+  const Memory m{size};
+  loadFrame(size);
+  gpu::background::smooth(m.planes, m.targets, nullptr);
+  gpu::background::judge(m.planes, m.model, {5, 20}, {m.bits, m.bits, m.bits}, nullptr);
+  gpu::background::replaceWhere(m.bits, m.planes, m.model, nullptr);
+  gpu::background::learn(m.planes, {m.bits, m.bits, m.bits, m.bits}, {1, 16, false}, m.model,
+                         nullptr);
+  gpu::background::paintModelAt(m.bits, m.model, m.targets, nullptr);
+}
+
+double microseconds(const gpu::Work& work, const Device& device) {
+  return 1e6 *
+         std::max(work.bytes / device.bytesPerSecond, work.operations / device.operationsPerSecond);
+}
+
+void print(Size size) {
+  std::printf("modelled, not measured: %dx%d, NV12\n", size.width, size.height);
+  std::printf("%-16s %12s %8s %9s %9s %9s %9s\n", "kernel", "grid", "block", "MB", "Mop", "H200 us",
+              "H100 us");
+  double sums[2] = {};
+  for (const gpu::Launch& launch : gpu::shim::launches()) {
+    double times[2];
+    for (int i = 0; i < 2; ++i) sums[i] += times[i] = microseconds(launch.work, kDevices[i]);
+    const std::string grid = std::to_string(launch.grid.x) + "x" + std::to_string(launch.grid.y) +
+                             "x" + std::to_string(launch.grid.z);
+    std::printf("%-16s %12s %8u %9.2f %9.2f %9.2f %9.2f\n", launch.name, grid.c_str(),
+                launch.block.x * launch.block.y * launch.block.z, launch.work.bytes / 1e6,
+                launch.work.operations / 1e6, times[0], times[1]);
+  }
+  const double launches = kLaunchUs * static_cast<double>(gpu::shim::launches().size());
+  for (int i = 0; i < 2; ++i)
+    std::printf("%s: %.1f us of work and %.0f us of launches a frame\n", kDevices[i].name, sums[i],
+                launches);
+}
+
+}  // namespace
+}  // namespace rg
+
+int main(int count, char** arguments) {
+  const rg::Size size{count > 2 ? std::atoi(arguments[1]) : 1920,
+                      count > 2 ? std::atoi(arguments[2]) : 1080};
+  if (size.isEmpty()) return 1;
+  rg::gpu::shim::begin({rg::gpu::shim::Order::Natural, 1, rg::gpu::shim::Mode::Record});
+  rg::launchFrame(size);
+  rg::print(size);
+}

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "tests/kernels/parity.hpp"
+
+namespace rg::test {
+namespace {
+
+using background::ConsensusBackground;
+using background::SmoothPicture;
+
+/// The frames of a scene: a picture, and what moves and flickers over it.
+void loadScene(Size size, int fill, int frame, bool isGrey, Picture& picture) {
+  Image<uint8_t> packed({isGrey ? size.width : 3 * size.width, size.height});
+  for (int y = 0; y < size.height; ++y)
+    for (int x = 0; x < packed.width(); ++x) {
+      const auto flicker = static_cast<int>(hashOf(x, y, static_cast<uint32_t>(frame)) % 9);
+      const bool isThing = (x / 3 + 4 * frame) % 23 < 5;
+      packed.at(x, y) = static_cast<uint8_t>(
+          isThing ? 255 - levelAt(fill, x, y) : std::min(255, levelAt(fill, x, y) + flicker));
+    }
+  const FrameLayout layout{isGrey ? PixelFormat::Gray8 : PixelFormat::Rgb, size};
+  const ImageView<const uint8_t> view = packed;
+  const PlaneMemory memory{view.data, static_cast<uint64_t>(view.strideBytes * view.size.height),
+                           view.strideBytes};
+  picture.load(*Frame::make(layout, std::span(&memory, 1)), oneThread());
+}
+
+struct SmoothPlanes {
+  std::array<Plane<uint8_t>, 3> planes;
+  int channels;
+
+  SmoothPlanes(Size size, int count)
+      : planes{Plane<uint8_t>(size), Plane<uint8_t>(size), Plane<uint8_t>(size)}, channels(count) {}
+  explicit SmoothPlanes(const SmoothPicture& from) : SmoothPlanes(from.size(), from.channels) {
+    for (size_t c = 0; c < static_cast<size_t>(channels); ++c)
+      planes[c] = Plane<uint8_t>(from.planes[c].view());
+  }
+  operator gpu::PlaneTargets() {  // NOLINT(google-explicit-constructor)
+    return {{planes[0], planes[1], planes[2]}, channels};
+  }
+  operator gpu::Planes() {  // NOLINT(google-explicit-constructor)
+    return {{planes[0], planes[1], planes[2]}, channels};
+  }
+  void expect(const std::array<Image<uint8_t>, 3>& expected, const char* what) {
+    for (size_t c = 0; c < static_cast<size_t>(channels); ++c)
+      planes[c].expect(expected[c].view(), what);
+  }
+};
+
+gpu::Planes planesOf(const Picture& picture) {
+  return {{picture.green(), picture.red(), picture.blue()}, picture.isGrey() ? 1 : 3};
+}
+
+/// A model on the device, with core's contents or empty.
+struct DeviceModel {
+  Plane<uint8_t> samples, noise, unrest;
+  int channels;
+  DeviceModel(Size size, int count)
+      : samples(
+            {gpu::wordsOf(size.width) * kWordColumns * background::kSamples * count, size.height}),
+        noise(size),
+        unrest(size),
+        channels(count) {}
+  explicit DeviceModel(const ConsensusBackground& from)
+      : samples(from.samples.view()),
+        noise(from.noise.view()),
+        unrest(from.unrest.view()),
+        channels(from.channels) {}
+  gpu::background::ModelView view() {
+    return {noise.view().size, channels, samples, noise, unrest};
+  }
+  void expect(const ConsensusBackground& expected) {
+    noise.expect(expected.noise.view(), "noise");
+    unrest.expect(expected.unrest.view(), "unrest");
+    samples.expect(expected.samples.view(), "samples");
+  }
+};
+
+/// A scene that core has learnt for some frames, and the next frame's picture and verdicts.
+struct LearntScene {
+  Picture picture;
+  SmoothPicture smooth;
+  ConsensusBackground model;
+  background::Verdicts verdicts;
+  BitMask mask, near, previousRaw;
+  uint32_t frame = 0;
+
+  LearntScene(Size size, int fill, bool isGrey, int frames) : mask(size), previousRaw(size) {
+    loadScene(size, fill, 0, isGrey, picture);
+    background::smooth(picture, oneThread(), smooth);
+    background::prepare(size, isGrey ? 1 : 3, model);
+    background::fillFrom(smooth, oneThread(), model);
+    previousRaw.clear();
+    for (int i = 1; i <= frames; ++i) {
+      if (i > 1) {
+        background::learn(smooth, {mask, near, verdicts.raw, previousRaw}, {frame, 2, false},
+                          oneThread(), model);
+        std::swap(verdicts.raw, previousRaw);
+      }
+      frame = static_cast<uint32_t>(i);
+      loadScene(size, fill, i, isGrey, picture);
+      background::smooth(picture, oneThread(), smooth);
+      background::judge(smooth, model, {5, 20}, oneThread(), verdicts);
+      mask = scattered(size, frame);
+      near = scattered(size, frame);
+    }
+  }
+};
+
+template <class Check>
+void forScenes(int frames, const Check& check) {
+  forSizesAndFills([&](Size size, int fill) {
+    for (const bool isGrey : {false, true}) {
+      SCOPED_TRACE(isGrey ? "grey" : "colour");
+      check(LearntScene(size, fill, isGrey, frames));
+    }
+  });
+}
+
+}  // namespace
+
+void parity_smooth() {
+  forScenes(1, [](const LearntScene& scene) {
+    SmoothPlanes out(scene.smooth.size(), scene.smooth.channels);
+    gpu::background::smooth(planesOf(scene.picture), out, nullptr);
+    out.expect(scene.smooth.planes, "smooth");
+  });
+}
+
+void parity_fillFrom() {
+  forScenes(1, [](const LearntScene& scene) {
+    ConsensusBackground expected;
+    background::prepare(scene.smooth.size(), scene.smooth.channels, expected);
+    background::fillFrom(scene.smooth, oneThread(), expected);
+    SmoothPlanes smooth(scene.smooth);
+    DeviceModel model(scene.smooth.size(), scene.smooth.channels);
+    gpu::background::fillFrom(smooth, model.view(), nullptr);
+    model.expect(expected);
+  });
+}
+
+void parity_judge() {
+  forScenes(3, [](const LearntScene& scene) {
+    SmoothPlanes smooth(scene.smooth);
+    DeviceModel model(scene.model);
+    for (const background::Tolerance tolerance :
+         {background::Tolerance{5, 20}, {0, 0}, {200, 255}}) {
+      background::Verdicts expected;
+      background::judge(scene.smooth, scene.model, tolerance, oneThread(), expected);
+      const Size size = scene.smooth.size();
+      Bits raw(size), strong(size), faint(size);
+      gpu::background::judge(smooth, model.view(), tolerance, {raw, strong, faint}, nullptr);
+      raw.expect(expected.raw, "raw");
+      strong.expect(expected.strong, "strong");
+      faint.expect(expected.faint, "faint");
+    }
+  });
+}
+
+void parity_learn() {
+  for (const background::ConsensusRate rate :
+       {background::ConsensusRate{16, 2, false}, {8, 3, true}, {1001, 16, false}})
+    forScenes(4, [&](LearntScene scene) {
+      SmoothPlanes smooth(scene.smooth);
+      for (int y = 0; y < scene.model.unrest.height(); ++y)
+        for (int x = 0; x < scene.model.unrest.width(); x += 3)
+          scene.model.unrest.at(x, y) = static_cast<uint8_t>(hashOf(x, y, 5));
+      DeviceModel model(scene.model);
+      Bits mask(scene.mask), near(scene.near), raw(scene.verdicts.raw), before(scene.previousRaw);
+      gpu::background::learn(smooth, {mask, near, raw, before}, rate, model.view(), nullptr);
+      background::learn(scene.smooth,
+                        {scene.mask, scene.near, scene.verdicts.raw, scene.previousRaw}, rate,
+                        oneThread(), scene.model);
+      model.expect(scene.model);
+    });
+}
+
+void parity_replaceWhere() {
+  forScenes(2, [](LearntScene scene) {
+    SmoothPlanes smooth(scene.smooth);
+    DeviceModel model(scene.model);
+    gpu::background::replaceWhere(Bits(scene.mask), smooth, model.view(), nullptr);
+    background::replaceWhere(scene.mask, scene.smooth, oneThread(), scene.model);
+    model.expect(scene.model);
+  });
+}
+
+void parity_paintModel() {
+  forScenes(4, [](const LearntScene& scene) {
+    std::array<Image<uint8_t>, 3> expected;
+    background::paintModel(scene.model, oneThread(), expected);
+    DeviceModel model(scene.model);
+    SmoothPlanes out(scene.smooth.size(), scene.model.channels);
+    gpu::background::paintModel(model.view(), out, nullptr);
+    out.expect(expected, "model");
+  });
+}
+
+void parity_paintModelAt() {
+  forScenes(4, [](const LearntScene& scene) {
+    const Size size = scene.smooth.size();
+    BitMask places(size);
+    places.clear();
+    for (int y = 0; y < size.height; y += 3)
+      places.set(hashOf(y, 0, 1) % 2 == 0 ? 0 : size.width - 1, y);
+    std::array<Image<uint8_t>, 3> expected{Image<uint8_t>(size), Image<uint8_t>(size),
+                                           Image<uint8_t>(size)};
+    for (Image<uint8_t>& plane : expected) plane.fill(0xA5);
+    background::paintModelAt(places, scene.model, oneThread(), expected);
+    DeviceModel model(scene.model);
+    SmoothPlanes out(size, scene.model.channels);
+    gpu::background::paintModelAt(Bits(places), model.view(), out, nullptr);
+    out.expect(expected, "model");
+  });
+}
+
+}  // namespace rg::test
