@@ -2,7 +2,11 @@
 // All operations, and what core has for them.
 #pragma once
 
+#include "core/background/mask_cleaning.hpp"
+#include "kernels/bit_mask.hpp"
+#include "kernels/components.hpp"
 #include "kernels/consensus_background.hpp"
 #include "kernels/histogram.hpp"
+#include "kernels/mask_cleaning.hpp"
 #include "kernels/operations.hpp"
 #include "kernels/picture.hpp"

@@ -5,13 +5,23 @@
 // a test does not compile or link. meson reads it too and names a test for each line.
 #pragma once
 
-#define RG_GPU_OPERATIONS(X)                                                       \
-  X(loadPlanes, rg::loadPlanes, rg::gpu::loadPlanes)                               \
-  X(countLevels, rg::countLevels, rg::gpu::countLevels)                            \
-  X(smooth, rg::background::smooth, rg::gpu::background::smooth)                   \
-  X(fillFrom, rg::background::fillFrom, rg::gpu::background::fillFrom)             \
-  X(judge, rg::background::judge, rg::gpu::background::judge)                      \
-  X(learn, rg::background::learn, rg::gpu::background::learn)                      \
-  X(replaceWhere, rg::background::replaceWhere, rg::gpu::background::replaceWhere) \
-  X(paintModel, rg::background::paintModel, rg::gpu::background::paintModel)       \
-  X(paintModelAt, rg::background::paintModelAt, rg::gpu::background::paintModelAt)
+#define RG_GPU_OPERATIONS(X)                                                             \
+  X(loadPlanes, rg::loadPlanes, rg::gpu::loadPlanes)                                     \
+  X(countLevels, rg::countLevels, rg::gpu::countLevels)                                  \
+  X(packEqual, rg::packEqual, rg::gpu::packEqual)                                        \
+  X(paint, rg::paint, rg::gpu::paint)                                                    \
+  X(remove, rg::remove, rg::gpu::remove)                                                 \
+  X(keepOnly, rg::keepOnly, rg::gpu::keepOnly)                                           \
+  X(thicken, rg::thicken, rg::gpu::thicken)                                              \
+  X(findComponents, rg::findComponents, rg::gpu::findComponents)                         \
+  X(smooth, rg::background::smooth, rg::gpu::background::smooth)                         \
+  X(fillFrom, rg::background::fillFrom, rg::gpu::background::fillFrom)                   \
+  X(judge, rg::background::judge, rg::gpu::background::judge)                            \
+  X(learn, rg::background::learn, rg::gpu::background::learn)                            \
+  X(replaceWhere, rg::background::replaceWhere, rg::gpu::background::replaceWhere)       \
+  X(paintModel, rg::background::paintModel, rg::gpu::background::paintModel)             \
+  X(paintModelAt, rg::background::paintModelAt, rg::gpu::background::paintModelAt)       \
+  X(keepMajority, rg::background::keepMajority, rg::gpu::background::keepMajority)       \
+  X(dropSmallParts, rg::background::dropSmallParts, rg::gpu::background::dropSmallParts) \
+  X(fillHoles, rg::background::fillHoles, rg::gpu::background::fillHoles)                \
+  X(keepSupported, rg::background::keepSupported, rg::gpu::background::keepSupported)

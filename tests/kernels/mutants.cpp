@@ -52,6 +52,14 @@ TEST(Mutants, ALostAtomicIsCaughtByCountLevels) {
   expectCaught(Mutant::LostAtomic, test::parity_countLevels);
 }
 
+TEST(Mutants, AWrongTieBreakIsCaughtByFindComponents) {
+  expectCaught(Mutant::WrongTieBreak, test::parity_findComponents);
+}
+
+TEST(Mutants, AMissingBarrierIsCaughtByKeepMajority) {
+  expectCaught(Mutant::MissingBarrier, test::parity_keepMajority);
+}
+
 TEST(Mutants, NoErrorIsNotCaught) {
   EXPECT_EQ(complaintsOf(test::parity_smooth), 0);
   EXPECT_EQ(complaintsOf(test::parity_countLevels), 0);

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "kernels/components.hpp"
+#include "kernels/start.hpp"
+#include "kernels/word_runs.hpp"
+
+namespace rg::gpu {
+namespace {
+
+/// The mask, or what is not in it.
+struct Wanted {
+  BitView mask;
+  bool value;
+};
+
+__device__ uint64_t bitsOf(const Wanted& wanted, Point at) {
+  const uint64_t word = wanted.mask.words.at(at.x, at.y);
+  return wanted.value ? word : ~word & columnsOf(wanted.mask.size.width, at.x);
+}
+
+/// The columns of a word where runs begin.
+__device__ uint64_t beginsOf(const Wanted& wanted, Point at) {
+  const uint64_t bits = bitsOf(wanted, at);
+  const uint64_t before = at.x > 0 ? bitsOf(wanted, {at.x - 1, at.y}) >> (kWordColumns - 1) : 0;
+  return bits & ~(bits << 1 | before);
+}
+
+__device__ int lowestBit(uint64_t bits) {
+  return __ffsll(static_cast<long long>(bits)) - 1;
+}
+
+__global__ void countRuns(Wanted wanted, uint32_t* counts) {
+  const WordOfThread word = wordOfThread(wanted.mask.words.size);
+  if (word.isInside)
+    counts[word.index] = static_cast<uint32_t>(__popcll(beginsOf(wanted, word.at)));
+}
+
+/// The first column from that of bit `first` on that is not wanted.
+__device__ int endOf(const Wanted& wanted, Point at, int first) {
+  uint64_t gaps = ~bitsOf(wanted, at) & ~uint64_t{0} << first;
+  while (gaps == 0 && ++at.x < wanted.mask.words.width()) gaps = ~bitsOf(wanted, at);
+  const int end = gaps == 0 ? wanted.mask.size.width : at.x * kWordColumns + lowestBit(gaps);
+  return std::min(end, wanted.mask.size.width);
+}
+
+__global__ void listRuns(Wanted wanted, ComponentsView found) {
+  const WordOfThread word = wordOfThread(wanted.mask.words.size);
+  if (!word.isInside) return;
+  uint32_t run = found.firstRun[word.index];
+  for (uint64_t begins = beginsOf(wanted, word.at); begins != 0; begins &= begins - 1, ++run) {
+    const int first = lowestBit(begins);
+    const int end = endOf(wanted, word.at, first);
+    found.runs[run] = {runOf(word.at.y, word.at.x * kWordColumns + first, end), 0};
+    found.parents[run] = run;
+  }
+}
+
+__device__ uint32_t rootOf(const uint32_t* parents, uint32_t run) {
+  while (parents[run] != run) run = parents[run];
+  return run;
+}
+
+/// Parents only become less, so one that was read too early is still one of the ancestors; who
+/// loses a race goes on with what the winner wrote.
+__device__ void joinRuns(uint32_t* parents, uint32_t a, uint32_t b) {
+  for (;;) {
+    a = rootOf(parents, a);
+    b = rootOf(parents, b);
+    if (a == b) return;
+    const uint32_t less = isMutated(Mutant::WrongTieBreak) ? std::max(a, b) : std::min(a, b);
+    const uint32_t more = a ^ b ^ less;
+    if (isMutated(Mutant::WrongTieBreak)) {
+      parents[more] = less;
+      return;
+    }
+    const uint32_t old = atomicMin(parents + more, less);
+    if (old == more) return;
+    a = old;
+    b = less;
+  }
+}
+
+/// How many runs begin in the raster up to column x of row y.
+__device__ uint32_t runsUpTo(const Wanted& wanted, const ComponentsView& found, int x, int y) {
+  const Point at{x / kWordColumns, y};
+  const uint64_t upTo = ~uint64_t{0} >> (kWordColumns - 1 - x % kWordColumns);
+  return found.firstRun[y * wanted.mask.words.width() + at.x] +
+         static_cast<uint32_t>(__popcll(beginsOf(wanted, at) & upTo));
+}
+
+__global__ void joinRows(Wanted wanted, int reach, ComponentsView found) {
+  const WordOfThread word = wordOfThread(wanted.mask.words.size);
+  if (!word.isInside || word.at.y == 0) return;
+  forRunsFrom(found, word.index, [&](uint32_t run) {
+    const int above = word.at.y - 1;
+    const int left = std::max(0, found.runs[run].begin - reach);
+    const int right = std::min(wanted.mask.size.width, found.runs[run].end + reach) - 1;
+    const uint64_t bits = bitsOf(wanted, {left / kWordColumns, above});
+    const bool isInRun = (bits >> left % kWordColumns & 1) != 0;
+    uint32_t other = runsUpTo(wanted, found, left, above) - (isInRun ? 1 : 0);
+    const uint32_t last = runsUpTo(wanted, found, right, above);
+    for (; other < last; ++other) joinRuns(found.parents, run, other);
+  });
+}
+
+/// Each run's parent is its component's first run from then on.
+__global__ void flatten(Size words, ComponentsView found) {
+  const WordOfThread word = wordOfThread(words);
+  if (!word.isInside) return;
+  uint32_t roots = 0;
+  forRunsFrom(found, word.index, [&](uint32_t run) {
+    const uint32_t root = rootOf(found.parents, run);
+    found.parents[run] = root;
+    roots += root == run;
+  });
+  found.firstRoot[word.index] = roots;
+}
+
+/// Until the sums are done, a box holds its right and bottom edges instead of its size.
+__global__ void numberComponents(Size words, int width, ComponentsView found) {
+  const WordOfThread word = wordOfThread(words);
+  if (!word.isInside) return;
+  uint32_t number = found.firstRoot[word.index];
+  forRunsFrom(found, word.index, [&](uint32_t i) {
+    if (found.parents[i] != i) return;
+    const ComponentRun& run = found.runs[i];
+    const auto first = static_cast<uint32_t>(int64_t{run.y} * width + run.begin);
+    found.numbers[i] = number;
+    found.list[number++] = {{run.begin, run.y, run.end, run.y + 1}, 0, first};
+  });
+}
+
+__global__ void sumComponents(Size words, ComponentsView found) {
+  const WordOfThread word = wordOfThread(words);
+  if (!word.isInside) return;
+  forRunsFrom(found, word.index, [&](uint32_t i) {
+    ComponentRun& run = found.runs[i];
+    run.component = found.numbers[found.parents[i]];
+    Component& component = found.list[run.component];
+    atomicAdd(&component.areaPx, static_cast<uint32_t>(run.end - run.begin));
+    atomicMin(&component.box.x, static_cast<int>(run.begin));
+    atomicMax(&component.box.width, static_cast<int>(run.end));
+    atomicMax(&component.box.height, run.y + 1);
+  });
+}
+
+__global__ void closeBoxes(Size words, ComponentsView found) {
+  const WordOfThread word = wordOfThread(words);
+  if (!word.isInside) return;
+  for (uint32_t i = found.firstRoot[word.index]; i < found.firstRoot[word.index + 1]; ++i) {
+    Box& box = found.list[i].box;
+    box.width -= box.x;
+    box.height -= box.y;
+  }
+}
+
+}  // namespace
+
+void findComponents(const BitView& mask, bool value, Connectivity connectivity,
+                    const ComponentsView& found, Stream stream) {
+  const Size words = mask.words.size;
+  const auto count = static_cast<int>(words.area());
+  const Wanted wanted{mask, value};
+  const int reach = connectivity == Connectivity::Eight ? 1 : 0;
+  // A word, and the numbers of its runs; runs are few beside words.
+  const auto over = [&](const char* name, double bytesOfWord) {
+    return launchOverList(name, count, {bytesOfWord * count, 4.0 * count});
+  };
+  start(over("countRuns", 12), stream, countRuns, wanted, found.firstRun);
+  scan(found.firstRun, count, found.firstRun, found.scratch, stream);
+  start(over("listRuns", 12), stream, listRuns, wanted, found);
+  start(over("joinRows", 12), stream, joinRows, wanted, reach, found);
+  start(over("flatten", 8), stream, flatten, words, found);
+  scan(found.firstRoot, count, found.firstRoot, found.scratch, stream);
+  start(over("numberComponents", 8), stream, numberComponents, words, mask.size.width, found);
+  start(over("sumComponents", 4), stream, sumComponents, words, found);
+  start(over("closeBoxes", 4), stream, closeBoxes, words, found);
+}
+
+}  // namespace rg::gpu

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The runs of a mask's words; for .cu files only.
+#pragma once
+
+#include "kernels/components.hpp"
+#include "kernels/threads.hpp"
+
+namespace rg::gpu {
+
+/// A thread of launchOverList() for each word of a mask, in raster order.
+struct WordOfThread {
+  int index;  ///< In the raster of words.
+  Point at;   ///< Word of the row, row.
+  bool isInside;
+};
+__device__ inline WordOfThread wordOfThread(Size words) {
+  const int index = indexInGrid();
+  return {index, {index % words.width, index / words.width}, index < words.area()};
+}
+
+/// Calls visit(run) for each run that begins in the word.
+template <class Visit>
+__device__ void forRunsFrom(const ComponentsView& found, int word, const Visit& visit) {
+  for (uint32_t run = found.firstRun[word]; run < found.firstRun[word + 1]; ++run) visit(run);
+}
+
+/// Calls visit(run, bits) for each run that has columns in the word, also if it begins before.
+template <class Visit>
+__device__ void forRunsIn(const ComponentsView& found, const WordOfThread& word,
+                          const Visit& visit) {
+  const int begin = word.at.x * kWordColumns;
+  const auto bitsOf = [&](const ComponentRun& run) {
+    const int first = run.begin > begin ? run.begin - begin : 0;
+    const int last = run.end - begin < kWordColumns ? run.end - begin : kWordColumns;
+    return ~uint64_t{0} >> (kWordColumns - (last - first)) << first;
+  };
+  const uint32_t first = found.firstRun[word.index];
+  if (first > 0) {
+    const ComponentRun& before = found.runs[first - 1];
+    if (before.y == word.at.y && before.end > begin) visit(first - 1, bitsOf(before));
+  }
+  forRunsFrom(found, word.index, [&](uint32_t run) { visit(run, bitsOf(found.runs[run])); });
+}
+
+}  // namespace rg::gpu
