@@ -3,10 +3,14 @@
 #pragma once
 
 #include "core/background/mask_cleaning.hpp"
+#include "core/background/models/frame_difference.hpp"
 #include "kernels/bit_mask.hpp"
+#include "kernels/changed_pixels.hpp"
 #include "kernels/components.hpp"
 #include "kernels/consensus_background.hpp"
+#include "kernels/gaussian_background.hpp"
 #include "kernels/histogram.hpp"
 #include "kernels/mask_cleaning.hpp"
 #include "kernels/operations.hpp"
 #include "kernels/picture.hpp"
+#include "kernels/shadow.hpp"

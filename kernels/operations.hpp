@@ -24,4 +24,15 @@
   X(keepMajority, rg::background::keepMajority, rg::gpu::background::keepMajority)       \
   X(dropSmallParts, rg::background::dropSmallParts, rg::gpu::background::dropSmallParts) \
   X(fillHoles, rg::background::fillHoles, rg::gpu::background::fillHoles)                \
-  X(keepSupported, rg::background::keepSupported, rg::gpu::background::keepSupported)
+  X(keepSupported, rg::background::keepSupported, rg::gpu::background::keepSupported)    \
+  X(train, rg::background::train, rg::gpu::background::train)                            \
+  X(finishTraining, rg::background::finishTraining, rg::gpu::background::finishTraining) \
+  X(testGaussian, rg::background::testGaussian, rg::gpu::background::testGaussian)       \
+  X(updateGaussian, rg::background::updateGaussian, rg::gpu::background::updateGaussian) \
+  X(paintMean, rg::background::paintMean, rg::gpu::background::paintMean)                \
+  X(differ, rg::background::differ, rg::gpu::background::differ)                         \
+  X(measureChange, rg::background::measureChange, rg::gpu::background::measureChange)    \
+  X(markChange, rg::background::markChange, rg::gpu::background::markChange)             \
+  X(addStrange, rg::background::addStrange, rg::gpu::background::addStrange)             \
+  X(keepDense, rg::background::keepDense, rg::gpu::background::keepDense)                \
+  X(findShadows, rg::background::findShadows, rg::gpu::background::findShadows)

@@ -1,54 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "tests/kernels/parity.hpp"
+#include "tests/kernels/pictures.hpp"
 
 namespace rg::test {
 namespace {
 
 using background::ConsensusBackground;
 using background::SmoothPicture;
-
-/// The frames of a scene: a picture, and what moves and flickers over it.
-void loadScene(Size size, int fill, int frame, bool isGrey, Picture& picture) {
-  Image<uint8_t> packed({isGrey ? size.width : 3 * size.width, size.height});
-  for (int y = 0; y < size.height; ++y)
-    for (int x = 0; x < packed.width(); ++x) {
-      const auto flicker = static_cast<int>(hashOf(x, y, static_cast<uint32_t>(frame)) % 9);
-      const bool isThing = (x / 3 + 4 * frame) % 23 < 5;
-      packed.at(x, y) = static_cast<uint8_t>(
-          isThing ? 255 - levelAt(fill, x, y) : std::min(255, levelAt(fill, x, y) + flicker));
-    }
-  const FrameLayout layout{isGrey ? PixelFormat::Gray8 : PixelFormat::Rgb, size};
-  const ImageView<const uint8_t> view = packed;
-  const PlaneMemory memory{view.data, static_cast<uint64_t>(view.strideBytes * view.size.height),
-                           view.strideBytes};
-  picture.load(*Frame::make(layout, std::span(&memory, 1)), oneThread());
-}
-
-struct SmoothPlanes {
-  std::array<Plane<uint8_t>, 3> planes;
-  int channels;
-
-  SmoothPlanes(Size size, int count)
-      : planes{Plane<uint8_t>(size), Plane<uint8_t>(size), Plane<uint8_t>(size)}, channels(count) {}
-  explicit SmoothPlanes(const SmoothPicture& from) : SmoothPlanes(from.size(), from.channels) {
-    for (size_t c = 0; c < static_cast<size_t>(channels); ++c)
-      planes[c] = Plane<uint8_t>(from.planes[c].view());
-  }
-  operator gpu::PlaneTargets() {  // NOLINT(google-explicit-constructor)
-    return {{planes[0], planes[1], planes[2]}, channels};
-  }
-  operator gpu::Planes() {  // NOLINT(google-explicit-constructor)
-    return {{planes[0], planes[1], planes[2]}, channels};
-  }
-  void expect(const std::array<Image<uint8_t>, 3>& expected, const char* what) {
-    for (size_t c = 0; c < static_cast<size_t>(channels); ++c)
-      planes[c].expect(expected[c].view(), what);
-  }
-};
-
-gpu::Planes planesOf(const Picture& picture) {
-  return {{picture.green(), picture.red(), picture.blue()}, picture.isGrey() ? 1 : 3};
-}
 
 /// A model on the device, with core's contents or empty.
 struct DeviceModel {
@@ -120,7 +78,7 @@ void forScenes(int frames, const Check& check) {
 
 void parity_smooth() {
   forScenes(1, [](const LearntScene& scene) {
-    SmoothPlanes out(scene.smooth.size(), scene.smooth.channels);
+    DevicePlanes out(scene.smooth.size(), scene.smooth.channels);
     gpu::background::smooth(planesOf(scene.picture), out, nullptr);
     out.expect(scene.smooth.planes, "smooth");
   });
@@ -131,7 +89,7 @@ void parity_fillFrom() {
     ConsensusBackground expected;
     background::prepare(scene.smooth.size(), scene.smooth.channels, expected);
     background::fillFrom(scene.smooth, oneThread(), expected);
-    SmoothPlanes smooth(scene.smooth);
+    DevicePlanes smooth(scene.smooth.planes, scene.smooth.channels);
     DeviceModel model(scene.smooth.size(), scene.smooth.channels);
     gpu::background::fillFrom(smooth, model.view(), nullptr);
     model.expect(expected);
@@ -140,7 +98,7 @@ void parity_fillFrom() {
 
 void parity_judge() {
   forScenes(3, [](const LearntScene& scene) {
-    SmoothPlanes smooth(scene.smooth);
+    DevicePlanes smooth(scene.smooth.planes, scene.smooth.channels);
     DeviceModel model(scene.model);
     for (const background::Tolerance tolerance :
          {background::Tolerance{5, 20}, {0, 0}, {200, 255}}) {
@@ -160,7 +118,7 @@ void parity_learn() {
   for (const background::ConsensusRate rate :
        {background::ConsensusRate{16, 2, false}, {8, 3, true}, {1001, 16, false}})
     forScenes(4, [&](LearntScene scene) {
-      SmoothPlanes smooth(scene.smooth);
+      DevicePlanes smooth(scene.smooth.planes, scene.smooth.channels);
       for (int y = 0; y < scene.model.unrest.height(); ++y)
         for (int x = 0; x < scene.model.unrest.width(); x += 3)
           scene.model.unrest.at(x, y) = static_cast<uint8_t>(hashOf(x, y, 5));
@@ -176,7 +134,7 @@ void parity_learn() {
 
 void parity_replaceWhere() {
   forScenes(2, [](LearntScene scene) {
-    SmoothPlanes smooth(scene.smooth);
+    DevicePlanes smooth(scene.smooth.planes, scene.smooth.channels);
     DeviceModel model(scene.model);
     gpu::background::replaceWhere(Bits(scene.mask), smooth, model.view(), nullptr);
     background::replaceWhere(scene.mask, scene.smooth, oneThread(), scene.model);
@@ -189,7 +147,7 @@ void parity_paintModel() {
     std::array<Image<uint8_t>, 3> expected;
     background::paintModel(scene.model, oneThread(), expected);
     DeviceModel model(scene.model);
-    SmoothPlanes out(scene.smooth.size(), scene.model.channels);
+    DevicePlanes out(scene.smooth.size(), scene.model.channels);
     gpu::background::paintModel(model.view(), out, nullptr);
     out.expect(expected, "model");
   });
@@ -207,7 +165,7 @@ void parity_paintModelAt() {
     for (Image<uint8_t>& plane : expected) plane.fill(0xA5);
     background::paintModelAt(places, scene.model, oneThread(), expected);
     DeviceModel model(scene.model);
-    SmoothPlanes out(size, scene.model.channels);
+    DevicePlanes out(size, scene.model.channels);
     gpu::background::paintModelAt(Bits(places), model.view(), out, nullptr);
     out.expect(expected, "model");
   });

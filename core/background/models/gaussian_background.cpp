@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/background/models/gaussian_background.hpp"
 
-#include "core/base/pixel.hpp"
+#include "core/background/models/gaussian_pixel.hpp"
 
 #include <algorithm>
 #include <bit>
 
 namespace rg::background {
 namespace {
-
-constexpr int kLeastVariance = 4 * 16;
-constexpr int kMostVariance = 3600 * 16;
-constexpr uint32_t kFarDistance = 9 * 256;  // Three deviations, squared, in 1/256.
 
 std::array<ImageView<const uint8_t>, 3> planesOf(const Picture& picture) {
   return {picture.green(), picture.red(), picture.blue()};
@@ -31,17 +27,10 @@ void updateRow(const uint8_t* pixels, const uint8_t* useShift, int width, uint16
   for (int x = 0; x < width; ++x) {
     const int shift = useShift[x];
     if (shift == 0) continue;
-    const int delta = (pixels[x] << 8) - means[x];
-    // 65280^2 needs 32 unsigned bits.
-    const int square = static_cast<int>(static_cast<uint32_t>(delta * int64_t{delta} >> 12));
-    means[x] = static_cast<uint16_t>(means[x] + roundShift(delta, shift));
-    const int variance = variances[x] + roundShift(square - variances[x], shift);
-    variances[x] = static_cast<uint16_t>(std::clamp(variance, kLeastVariance, kMostVariance));
+    const GaussianPixel next = updatedPixel({means[x], variances[x]}, pixels[x], shift);
+    means[x] = next.mean;
+    variances[x] = next.variance;
   }
-}
-
-int shiftNow(const UpdateRate& rate, uint32_t frame) {
-  return frame % rate.period == 0 ? rate.shift : 0;
 }
 
 }  // namespace
@@ -84,12 +73,9 @@ void finishTraining(const Executor& executor, GaussianBackground& model) {
     const uint32_t* sums = model.sums[c].row(y);
     const uint32_t* squares = model.squares[c].row(y);
     for (int x = 0; x < width; ++x) {
-      const uint64_t sum = sums[x];
-      const uint64_t spread = count * squares[x] - sum * sum;
-      const uint64_t variance = (spread * 16 + count * count / 2) / (count * count);
-      model.means[c].row(y)[x] = static_cast<uint16_t>(((sum << 8) + count / 2) / count);
-      model.variances[c].row(y)[x] = static_cast<uint16_t>(
-          std::clamp<uint64_t>(variance, uint64_t{kLeastVariance}, uint64_t{kMostVariance}));
+      const GaussianPixel trained = trainedPixel(sums[x], squares[x], count);
+      model.means[c].row(y)[x] = trained.mean;
+      model.variances[c].row(y)[x] = trained.variance;
     }
   });
 }
@@ -106,11 +92,9 @@ void testGaussian(const Picture& picture, const GaussianBackground& model, int t
         int farthest = 0;
         uint32_t distance = 0;
         for (size_t c = 0; c < static_cast<size_t>(model.channels); ++c) {
-          const int off = absDiff(planes[c].row(y)[x] << 8, model.means[c].row(y)[x]);
+          const int off = offMean(planes[c].row(y)[x], model.means[c].row(y)[x]);
           farthest = std::max(farthest, off);
-          // (off / 16)² < 2²⁴, so that the dividend stays below 2²⁸.
-          const auto sixteenths = static_cast<uint32_t>(off >> 4);
-          distance += (sixteenths * sixteenths << 4) / model.variances[c].row(y)[x];
+          distance += distanceOf(off, model.variances[c].row(y)[x]);
         }
         simple.row(y)[x] = farthest > threshold << 8 ? 255 : 0;
         gaussian.row(y)[x] = distance > kFarDistance ? 255 : 0;
@@ -154,8 +138,7 @@ void paintMean(const GaussianBackground& model, const Executor& executor,
     planes[c].resize(model.means[c].size());
   forPlaneRows(model, executor, [&](size_t c, int y) {
     const uint16_t* means = model.means[c].row(y);
-    for (int x = 0; x < model.means[c].width(); ++x)
-      planes[c].row(y)[x] = static_cast<uint8_t>(std::min(255, (means[x] + 128) >> 8));
+    for (int x = 0; x < model.means[c].width(); ++x) planes[c].row(y)[x] = meanLevel(means[x]);
   });
 }
 

@@ -37,6 +37,10 @@ struct UpdateRate {
   int shift = 8;  ///< 1 … 8: beyond that, rounding would stop the mean from moving.
   uint32_t period = 1;
 };
+/// The rate's shift in a frame, 0 where it has no turn.
+[[nodiscard]] constexpr int shiftNow(const UpdateRate& rate, uint32_t frame) {
+  return frame % rate.period == 0 ? rate.shift : 0;
+}
 /// Rate with a time constant of `frames` frames.
 [[nodiscard]] UpdateRate updateRate(int64_t frames);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/background/shadows/shadow.hpp"
 
-#include "core/base/pixel.hpp"
+#include "core/background/shadows/shadow_window.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,14 +9,7 @@
 namespace rg::background {
 namespace {
 
-constexpr int kRadius = 2;
-constexpr int64_t kMostResidual = 36;  ///< Square grey levels that noise and texture may leave.
-constexpr int64_t kMostTint = 14;      ///< Grey levels that a channel may leave the factor's line.
-
-/// Sums of picture I and background B over a window.
-struct WindowSums {
-  int64_t count = 0, i = 0, b = 0, ii = 0, ib = 0, bb = 0;
-};
+constexpr int kRadius = kShadowRadius;
 
 /// A pixel's window that may be cut off by the picture's border.
 struct Window {
@@ -49,10 +42,6 @@ WordSums sumWindows(ImageView<const uint8_t> plane, Point at) {
   return sums;
 }
 
-bool isInRange(const WindowSums& s) {
-  return s.i * 20 <= s.b * 19 && s.i * 5 >= s.b * 2;
-}
-
 void addProducts(ImageView<const uint8_t> picture, ImageView<const uint8_t> background,
                  const Window& window, WindowSums& sums) {
   sums.count = static_cast<int64_t>(window.right - window.left) * (window.bottom - window.top);
@@ -69,18 +58,10 @@ void addProducts(ImageView<const uint8_t> picture, ImageView<const uint8_t> back
   sums.bb = bb;
 }
 
-/// One factor explains the window: the rest of I − (Σi / Σb) B is noise.
-bool isDarkened(const WindowSums& s) {
-  const int64_t squareB = s.b * s.b;  // Sums below 25 · 255² keep all products under 2⁵⁰.
-  const int64_t rest = s.ii * squareB - 2 * s.i * s.b * s.ib + s.i * s.i * s.bb;
-  return rest <= s.count * kMostResidual * squareB;
-}
-
-bool keepsColour(const ColourPlanes& picture, const ColourPlanes& background, Point p,
-                 const WindowSums& s) {
+bool allKeepColour(const ColourPlanes& picture, const ColourPlanes& background, Point p,
+                   const WindowSums& s) {
   const auto isNear = [&](ImageView<const uint8_t> now, ImageView<const uint8_t> before) {
-    const int64_t off = now.at(p.x, p.y) * s.b - before.at(p.x, p.y) * s.i;
-    return off <= kMostTint * s.b && -off <= kMostTint * s.b;
+    return keepsColour(now.at(p.x, p.y), before.at(p.x, p.y), s);
   };
   return isNear(picture.red, background.red) && isNear(picture.green, background.green) &&
          isNear(picture.blue, background.blue);
@@ -96,7 +77,7 @@ uint64_t findInWord(const ColourPlanes& picture, const ColourPlanes& background,
   forSetBits(mask, 0, [&](int column) {
     const Point p{first + column, at.y};
     WindowSums sums{0, i[static_cast<size_t>(column)], b[static_cast<size_t>(column)]};
-    if (!isInRange(sums) || !keepsColour(picture, background, p, sums)) return;
+    if (!isInRange(sums) || !allKeepColour(picture, background, p, sums)) return;
     addProducts(picture.green, background.green, windowAround(p, picture.green.size), sums);
     if (isDarkened(sums)) shadow |= uint64_t{1} << column;
   });

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The Gaussian and the difference method, and shadows.
+#include "core/base/run.hpp"
+#include "tests/kernels/parity.hpp"
+#include "tests/kernels/pictures.hpp"
+
+#include <utility>
+
+namespace rg::test {
+namespace {
+
+using background::GaussianBackground;
+
+template <class T>
+struct ModelPlanes {
+  std::array<Plane<T>, 3> planes;
+  int channels;
+  ModelPlanes(const std::array<Image<T>, 3>& from, int count)
+      : planes{Plane<T>(from[0].view()), Plane<T>(from[0].view()), Plane<T>(from[0].view())},
+        channels(count) {
+    for (size_t c = 0; c < static_cast<size_t>(channels); ++c) planes[c] = Plane<T>(from[c].view());
+  }
+  operator gpu::PlanesOf<T>() {  // NOLINT(google-explicit-constructor)
+    return {{planes[0], planes[1], planes[2]}, channels};
+  }
+  void expect(const std::array<Image<T>, 3>& expected, const char* what) {
+    for (size_t c = 0; c < static_cast<size_t>(channels); ++c)
+      planes[c].expect(expected[c].view(), what);
+  }
+};
+
+struct DeviceGaussian {
+  ModelPlanes<uint16_t> means, variances;
+  ModelPlanes<uint32_t> sums, squares;
+  explicit DeviceGaussian(const GaussianBackground& from)
+      : means(from.means, from.channels),
+        variances(from.variances, from.channels),
+        sums(from.sums, from.channels),
+        squares(from.squares, from.channels) {}
+  gpu::background::GaussianView view() { return {means, variances, sums, squares}; }
+  void expect(const GaussianBackground& expected) {
+    means.expect(expected.means, "means");
+    variances.expect(expected.variances, "variances");
+    sums.expect(expected.sums, "sums");
+    squares.expect(expected.squares, "squares");
+  }
+};
+
+/// Calls check(picture, model) with a model that was trained by some frames before the picture.
+template <class Check>
+void forTrained(const Check& check) {
+  forSizesAndFills([&](Size size, int fill) {
+    for (const bool isGrey : {false, true}) {
+      Picture picture;
+      GaussianBackground model;
+      for (int frame = 0; frame < 4; ++frame) {
+        loadScene(size, fill, frame, isGrey, picture);
+        if (frame == 0) background::startTraining(picture, model);
+        if (frame < 3) background::train(picture, oneThread(), model);
+      }
+      check(picture, model);
+    }
+  });
+}
+
+/// The same, ready for use.
+template <class Check>
+void forFinished(const Check& check) {
+  forTrained([&](const Picture& picture, GaussianBackground& model) {
+    background::finishTraining(oneThread(), model);
+    check(picture, model);
+  });
+}
+
+/// Calls check(a, b) with two frames of a scene.
+template <class Check>
+void forPairs(const Check& check) {
+  forSizesAndFills([&](Size size, int fill) {
+    for (const bool isGrey : {false, true}) {
+      std::pair<Picture, Picture> frames;
+      loadScene(size, fill, 0, isGrey, frames.first);
+      loadScene(size, fill, 1, isGrey, frames.second);
+      check(frames.first, frames.second);
+    }
+  });
+}
+
+Run rowOf(Size size, int y) {
+  return runOf(y, 0, size.width);
+}
+
+}  // namespace
+
+void parity_train() {
+  forTrained([](const Picture& picture, GaussianBackground& model) {
+    DeviceGaussian there(model);
+    gpu::background::train(planesOf(picture), there.view(), nullptr);
+    background::train(picture, oneThread(), model);
+    there.expect(model);
+  });
+}
+
+void parity_finishTraining() {
+  forTrained([](const Picture&, GaussianBackground& model) {
+    DeviceGaussian there(model);
+    gpu::background::finishTraining(model.trainedFrames, there.view(), nullptr);
+    background::finishTraining(oneThread(), model);
+    there.expect(model);
+  });
+}
+
+void parity_testGaussian() {
+  forFinished([](const Picture& picture, GaussianBackground& model) {
+    DeviceGaussian there(model);
+    for (const int threshold : {0, 20, 255}) {
+      Image<uint8_t> simple, gaussian;
+      background::testGaussian(picture, model, threshold, oneThread(), simple, gaussian);
+      Plane<uint8_t> simpleThere(picture.size()), gaussianThere(picture.size());
+      gpu::background::testGaussian(planesOf(picture), there.view(), threshold,
+                                    {simpleThere, gaussianThere}, nullptr);
+      simpleThere.expect(simple.view(), "simple");
+      gaussianThere.expect(gaussian.view(), "gaussian");
+    }
+  });
+}
+
+void parity_updateGaussian() {
+  forFinished([](const Picture& picture, GaussianBackground& model) {
+    Image<uint8_t> mask(picture.size());
+    mask.fill(0);
+    paint(scattered(picture.size(), 3), 128, mask);
+    Plane<uint8_t> maskThere(mask.view());
+    DeviceGaussian there(model);
+    for (const background::UpdateRates& rates :
+         {background::UpdateRates{{3, 1}, {8, 1}, 5}, {{1, 1}, {8, 4}, 5}, {{8, 2}, {8, 4}, 8}}) {
+      gpu::background::updateGaussian(planesOf(picture), maskThere, rates, there.view(), nullptr);
+      background::updateGaussian(picture, mask, rates, oneThread(), model);
+      there.expect(model);
+    }
+  });
+}
+
+void parity_paintMean() {
+  forFinished([](const Picture& picture, GaussianBackground& model) {
+    std::array<Image<uint8_t>, 3> expected;
+    background::paintMean(model, oneThread(), expected);
+    DeviceGaussian there(model);
+    DevicePlanes out(picture.size(), model.channels);
+    gpu::background::paintMean(there.view(), out, nullptr);
+    out.expect(expected, "means");
+  });
+}
+
+void parity_findShadows() {
+  forPairs([](const Picture& picture, const Picture& other) {
+    const Size size = picture.size();
+    // The picture is the other one, darker in places.
+    Image<uint8_t> darker[3] = {Image<uint8_t>(size), Image<uint8_t>(size), Image<uint8_t>(size)};
+    for (int y = 0; y < size.height; ++y)
+      for (int x = 0; x < size.width; ++x) {
+        const int share = 90 + 40 * (hashOf(x / 16, y / 8, 2) % 5 != 0);
+        darker[0].at(x, y) = static_cast<uint8_t>(other.red().at(x, y) * share >> 8);
+        darker[1].at(x, y) = static_cast<uint8_t>(other.green().at(x, y) * share >> 8);
+        darker[2].at(x, y) =
+            static_cast<uint8_t>((x / 9 % 3 == 0 ? picture : other).blue().at(x, y) * share >> 8);
+      }
+    const background::ColourPlanes planes{darker[0], darker[1], darker[2]};
+    const BitMask mask = scattered(size, 8);
+    BitMask expected(size);
+    background::findShadows(planes, background::planesOf(other), mask, oneThread(), expected);
+    Bits out(size);
+    gpu::background::findShadows(planes, background::planesOf(other), Bits(mask), out, nullptr);
+    out.expect(expected, "shadow");
+  });
+}
+
+void parity_measureChange() {
+  forPairs([](const Picture& a, const Picture& b) {
+    Image<uint8_t> expected(a.size());
+    for (int y = 0; y < a.size().height; ++y)
+      background::measureChange(background::planesOf(a), background::planesOf(b),
+                                rowOf(a.size(), y), expected.row(y));
+    Plane<uint8_t> out(a.size());
+    gpu::background::measureChange(planesOf(a), planesOf(b), out, nullptr);
+    out.expect(expected.view(), "difference");
+  });
+}
+
+void parity_differ() {
+  forPairs([](const Picture& a, const Picture& b) {
+    Image<uint8_t> expected;
+    background::differ(a, b, oneThread(), expected);
+    Plane<uint8_t> out(a.size());
+    gpu::background::differ(planesOf(a), planesOf(b), out, nullptr);
+    out.expect(expected.view(), "difference");
+  });
+}
+
+void parity_markChange() {
+  forPairs([](const Picture& a, const Picture& b) {
+    for (const int threshold : {0, 7, 254, 255}) {
+      Image<uint8_t> expected(a.size());
+      for (int y = 0; y < a.size().height; ++y)
+        background::markChange(background::planesOf(a), background::planesOf(b), rowOf(a.size(), y),
+                               threshold, expected.row(y));
+      Plane<uint8_t> out(a.size());
+      gpu::background::markChange(planesOf(a), planesOf(b), threshold, out, nullptr);
+      out.expect(expected.view(), "change");
+    }
+  });
+}
+
+void parity_addStrange() {
+  forPairs([](const Picture& a, const Picture& b) {
+    Image<uint8_t> expected(a.size()), isKnown(a.size());
+    for (Image<uint8_t>* image : {&expected, &isKnown}) image->fill(0);
+    paint(scattered(a.size(), 2), 255, expected);
+    paint(scattered(a.size(), 6), 255, isKnown);
+    Plane<uint8_t> out(expected.view()), known(isKnown.view());
+    for (int y = 0; y < a.size().height; ++y)
+      background::addStrange(background::planesOf(a), background::planesOf(b), rowOf(a.size(), y),
+                             9, isKnown.row(y), expected.row(y));
+    gpu::background::addStrange(planesOf(a), planesOf(b), 9, known, out, nullptr);
+    out.expect(expected.view(), "strange");
+  });
+}
+
+void parity_keepDense() {
+  for (const Size size : kSizes) {
+    // Core reads one column and row beyond what it is asked about.
+    Image<uint8_t> framed({size.width + 2, size.height + 2}), expected(framed.size());
+    framed.fill(0);
+    const BitMask mask = scattered(size, 5);
+    for (int y = 0; y < size.height; ++y)
+      for (int x = 0; x < size.width; ++x)
+        framed.at(x + 1, y + 1) = static_cast<uint8_t>(mask.at(x, y) ? 255 : 0);
+    for (int y = 1; y <= size.height; ++y)
+      background::keepDense(framed.row(y - 1), framed.row(y), framed.row(y + 1),
+                            runOf(y, 1, size.width + 1), expected.row(y));
+    const Box inside{1, 1, size.width, size.height};
+    Plane<uint8_t> marked(std::as_const(framed).view().crop(inside)), out(size);
+    gpu::background::keepDense(marked, out, nullptr);
+    out.expect(std::as_const(expected).view().crop(inside), "dense");
+  }
+}
+
+}  // namespace rg::test
