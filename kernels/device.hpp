@@ -26,6 +26,13 @@ __device__ inline unsigned loadQuad(const unsigned char* bytes) {
 
 namespace rg::gpu {
 
+/// Four bytes from any address; up to seven behind it must be readable.
+__device__ inline unsigned loadQuadAnywhere(const uint8_t* bytes) {
+  const auto offset = static_cast<unsigned>(reinterpret_cast<uintptr_t>(bytes) % 4);
+  const unsigned low = loadQuad(bytes - offset), high = loadQuad(bytes - offset + 4);
+  return __funnelshift_r(low, high, 8 * offset);
+}
+
 inline constexpr int kWarp = 32;
 inline constexpr unsigned kFullWarp = 0xFFFFFFFFu;
 

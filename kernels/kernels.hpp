@@ -14,3 +14,4 @@
 #include "kernels/operations.hpp"
 #include "kernels/picture.hpp"
 #include "kernels/shadow.hpp"
+#include "kernels/shift_search.hpp"

@@ -35,4 +35,7 @@
   X(markChange, rg::background::markChange, rg::gpu::background::markChange)             \
   X(addStrange, rg::background::addStrange, rg::gpu::background::addStrange)             \
   X(keepDense, rg::background::keepDense, rg::gpu::background::keepDense)                \
-  X(findShadows, rg::background::findShadows, rg::gpu::background::findShadows)
+  X(findShadows, rg::background::findShadows, rg::gpu::background::findShadows)          \
+  X(padLuma, rg::motion::PaddedLuma, rg::gpu::motion::padLuma)                           \
+  X(sumBoxes, rg::motion::BoxSums, rg::gpu::motion::sumBoxes)                            \
+  X(searchShifts, rg::motion::searchShifts, rg::gpu::motion::searchShifts)

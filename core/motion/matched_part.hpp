@@ -20,8 +20,8 @@ struct MatchedPart {
   uint16_t strip = 0;   ///< In tiles.
   segmentation::RegionLabel label;
 
-  [[nodiscard]] int x() const { return column * kPartWidth; }
-  [[nodiscard]] int y() const { return strip * kPartHeight; }
+  [[nodiscard]] constexpr int x() const { return column * kPartWidth; }
+  [[nodiscard]] constexpr int y() const { return strip * kPartHeight; }
   [[nodiscard]] uint32_t pixels() const {
     return static_cast<uint32_t>(std::popcount(blocks)) * kBlockWidth;
   }

@@ -131,9 +131,19 @@ inline unsigned __vmaxu4(unsigned a, unsigned b) {
 inline unsigned __vminu4(unsigned a, unsigned b) {
   return forBytes(a, b, [](int x, int y) { return std::min(x, y); });
 }
+/// The sum of the differences.
+inline unsigned __vsadu4(unsigned a, unsigned b) {
+  const unsigned apart = __vabsdiffu4(a, b);
+  return (apart & 255) + (apart >> 8 & 255) + (apart >> 16 & 255) + (apart >> 24);
+}
 /// 255 where a is above b.
 inline unsigned __vcmpgtu4(unsigned a, unsigned b) {
   return forBytes(a, b, [](int x, int y) { return x > y ? 255 : 0; });
+}
+/// The lower half of both, high before low, after a shift to the right.
+inline unsigned __funnelshift_r(unsigned low, unsigned high, unsigned shift) {
+  const uint64_t both = uint64_t{high} << 32 | low;
+  return static_cast<unsigned>(both >> shift % 32);
 }
 
 namespace rg::gpu {

@@ -3,18 +3,21 @@
 // integer operations over its rate, and a launch's own time. Modelled, never measured.
 //
 // usage: kernel-model [WIDTH HEIGHT]
+#include "core/motion/shift_search.hpp"
 #include "kernels/kernels.hpp"
 #include "kernels/shim/block.hpp"
 
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <string>
+#include <vector>
 
 namespace rg {
 namespace {
 
-/// Of the data sheets: bandwidth, and 64 integer lanes of each multiprocessor at its boost clock.
-/// Four fifths of the bandwidth is what copies reach.
+/// Of the data sheets: bandwidth, of which copies reach four fifths, and 64 integer lanes of each
+/// multiprocessor at its boost clock; four differences of bytes take one lane an instruction.
 struct Device {
   const char* name;
   double bytesPerSecond, operationsPerSecond;
@@ -51,16 +54,48 @@ void loadFrame(Size size) {
   gpu::loadPlanes(*frame, {to, to, to, to}, nullptr);
 }
 
-/// A frame's way through what there is of method hybrid.
+/// Cleaning of a mask, as method hybrid does it from its third frame on.
+void launchCleaning(const Memory& m) {
+  const auto pixels = static_cast<uint32_t>(m.size.area());
+  gpu::background::keepMajority(m.bits, 3, 115, m.bits, nullptr);
+  gpu::background::keepSupported(m.bits, m.bits, 4, {}, nullptr);
+  gpu::background::fillHoles(m.bits, pixels / 50, {}, nullptr);
+  gpu::background::dropSmallParts(m.bits, 8, {}, nullptr);
+}
+
+/// 160 regions that are matched with all of their pixels, by shifts of up to 20.
+void launchSearch(const Memory& m) {
+  constexpr motion::ShiftRange kRange{20, 21};
+  constexpr int kRegions = 160;
+  const int reach = kRange.reach + 1;
+  const Size padded{m.size.width + 2 * reach + motion::PaddedLuma::kSlack,
+                    m.size.height + 2 * reach};
+  const gpu::motion::PaddedView luma{m.size, reach, plane<uint8_t>(padded)};
+  const gpu::motion::BoxesView boxes{plane<uint16_t>(padded)};
+  gpu::motion::padLuma(m.planes.planes[0], luma, nullptr);
+  gpu::motion::sumBoxes(luma, boxes, nullptr);
+  gpu::motion::searchShifts({nullptr, nullptr, kRegions}, {m.planes.planes[0], luma, boxes}, kRange,
+                            {nullptr, nullptr, kRegions}, nullptr, nullptr);
+}
+
+/// A frame's way through what there is of the pipeline: method hybrid, then the search for motion.
 void launchFrame(Size size) {
   const Memory m{size};
   loadFrame(size);
   gpu::background::smooth(m.planes, m.targets, nullptr);
   gpu::background::judge(m.planes, m.model, {5, 20}, {m.bits, m.bits, m.bits}, nullptr);
+  launchCleaning(m);
   gpu::background::replaceWhere(m.bits, m.planes, m.model, nullptr);
+  gpu::remove(m.bits, m.bits, nullptr);
+  gpu::thicken(m.bits, 2, m.bits, nullptr);
   gpu::background::learn(m.planes, {m.bits, m.bits, m.bits, m.bits}, {1, 16, false}, m.model,
                          nullptr);
   gpu::background::paintModelAt(m.bits, m.model, m.targets, nullptr);
+  const background::ColourPlanes planes{m.planes.planes[0], m.planes.planes[1], m.planes.planes[2]};
+  gpu::background::findShadows(planes, planes, m.bits, m.bits, nullptr);
+  gpu::background::keepMajority(m.bits, 1, 128, m.bits, nullptr);
+  gpu::keepOnly(m.bits, m.bits, nullptr);
+  launchSearch(m);
 }
 
 double microseconds(const gpu::Work& work, const Device& device) {
@@ -92,10 +127,12 @@ void print(Size size) {
 }  // namespace rg
 
 int main(int count, char** arguments) {
-  const rg::Size size{count > 2 ? std::atoi(arguments[1]) : 1920,
-                      count > 2 ? std::atoi(arguments[2]) : 1080};
-  if (size.isEmpty()) return 1;
-  rg::gpu::shim::begin({rg::gpu::shim::Order::Natural, 1, rg::gpu::shim::Mode::Record});
-  rg::launchFrame(size);
-  rg::print(size);
+  std::vector<rg::Size> sizes{{640, 480}, {1920, 1080}, {3840, 2160}};
+  if (count > 2) sizes = {{std::atoi(arguments[1]), std::atoi(arguments[2])}};
+  for (const rg::Size size : sizes) {
+    if (size.isEmpty()) return 1;
+    rg::gpu::shim::begin({rg::gpu::shim::Order::Natural, 1, rg::gpu::shim::Mode::Record});
+    rg::launchFrame(size);
+    rg::print(size);
+  }
 }

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "core/motion/shift_search.hpp"
+#include "kernels/shift_search.hpp"
+#include "tests/kernels/parity.hpp"
+
+#include <vector>
+
+namespace rg::test {
+namespace {
+
+using motion::FoundShift;
+using motion::MatchedPart;
+
+struct DeviceLuma {
+  Plane<uint8_t> rows;
+  gpu::motion::PaddedView view;
+  DeviceLuma(const motion::PaddedLuma& like, Size size)
+      : rows(like.rows().size), view{size, like.reach(), rows} {}
+};
+
+template <class Check>
+void forPadded(const Check& check) {
+  forSizesAndFills([&](Size size, int fill) {
+    const Image<uint8_t> luma = filled(size, fill);
+    for (const int reach : {1, 6}) {
+      motion::PaddedLuma padded;
+      padded.build(luma, reach, oneThread());
+      check(luma, padded);
+    }
+  });
+}
+
+/// Regions with parts of all kinds of gaps, in all corners of the picture.
+struct Regions {
+  std::vector<MatchedPart> parts;
+  std::vector<uint32_t> starts{0};
+
+  explicit Regions(Size size) {
+    for (uint16_t label = 1; label <= 5; ++label) {
+      for (int strip = 0; strip * motion::kPartHeight < size.height; ++strip)
+        for (int column = 0; column * motion::kPartWidth < size.width; ++column)
+          if (hashOf(column, strip, label) % 3 == 0) add(size, {column, strip}, label);
+      if (parts.size() > starts.back()) starts.push_back(static_cast<uint32_t>(parts.size()));
+    }
+  }
+  void add(Size size, Point at, uint16_t label) {
+    const uint32_t hash = hashOf(at.x, at.y, 90u + label);
+    uint64_t blocks = hash % 3 == 0   ? ~uint64_t{0}
+                      : hash % 3 == 1 ? uint64_t{1} << hash % 64
+                                      : uint64_t{hash} << 32 | hashOf(at.x, at.y, label);
+    const int rows = size.height - at.y * motion::kPartHeight;
+    if (rows < motion::kPartHeight) blocks &= (uint64_t{1} << (2 * rows)) - 1;
+    if ((at.x + 1) * motion::kPartWidth > size.width) blocks &= 0x5555555555555555;
+    if (at.x * motion::kPartWidth + motion::kBlockWidth > size.width || blocks == 0) return;
+    parts.push_back({blocks, static_cast<uint16_t>(at.x), static_cast<uint16_t>(at.y), label});
+  }
+  [[nodiscard]] int count() const { return static_cast<int>(starts.size()) - 1; }
+  [[nodiscard]] std::span<const MatchedPart> of(int region) const {
+    const auto i = static_cast<size_t>(region);
+    return std::span(parts).subspan(starts[i], starts[i + 1] - starts[i]);
+  }
+};
+
+void expectSame(const FoundShift& found, const FoundShift& expected) {
+  ASSERT_EQ(found.d, expected.d);
+  ASSERT_EQ(found.sums, expected.sums);
+  ASSERT_EQ(found.rival, expected.rival);
+  ASSERT_EQ(found.mean, expected.mean);
+  ASSERT_EQ(found.isBeaten, expected.isBeaten);
+}
+
+void checkSearch(Size size, int fill, const motion::ShiftRange& range) {
+  const Image<uint8_t> before = filled(size, fill);
+  Image<uint8_t> now(size);
+  for (int y = 0; y < size.height; ++y)
+    for (int x = 0; x < size.width; ++x)
+      now.at(x, y) = static_cast<uint8_t>(levelAt(fill, x + 2, y + 1) + (x * y % 7 == 0));
+  motion::PaddedLuma padded;
+  padded.build(before, range.reach + 1, oneThread());
+  motion::BoxSums boxes;
+  boxes.build(padded, oneThread());
+  Plane<uint8_t> luma(now.view());
+  DeviceLuma previous(padded, size);
+  Plane<uint16_t> sums(padded.rows().size);
+  gpu::motion::padLuma(Plane<uint8_t>(before.view()), previous.view, nullptr);
+  gpu::motion::sumBoxes(previous.view, {sums}, nullptr);
+
+  const Regions regions(size);
+  constexpr int kTogether = 2;  // More than one turn.
+  const auto room = static_cast<size_t>(kTogether * gpu::motion::shiftsOf(range));
+  std::vector<uint32_t> scratch(2 * room, 0xA5A5A5A5);
+  std::vector<FoundShift> found(static_cast<size_t>(regions.count()));
+  gpu::motion::searchShifts(
+      {regions.parts.data(), regions.starts.data(), regions.count()}, {luma, previous.view, {sums}},
+      range, {scratch.data(), scratch.data() + room, kTogether}, found.data(), nullptr);
+  motion::SearchScratch coreScratch;
+  for (int i = 0; i < regions.count(); ++i)
+    expectSame(found[static_cast<size_t>(i)],
+               motion::searchShifts(regions.of(i), now, {padded, boxes}, range, coreScratch));
+}
+
+}  // namespace
+
+void parity_padLuma() {
+  forPadded([](const Image<uint8_t>& luma, const motion::PaddedLuma& padded) {
+    DeviceLuma there(padded, luma.size());
+    gpu::motion::padLuma(Plane<uint8_t>(luma.view()), there.view, nullptr);
+    there.rows.expect(padded.rows(), "padded");
+  });
+}
+
+void parity_sumBoxes() {
+  forPadded([](const Image<uint8_t>& luma, const motion::PaddedLuma& padded) {
+    motion::BoxSums boxes;
+    boxes.build(padded, oneThread());
+    DeviceLuma there(padded, luma.size());
+    Plane<uint16_t> out(padded.rows().size);
+    gpu::motion::padLuma(Plane<uint8_t>(luma.view()), there.view, nullptr);
+    gpu::motion::sumBoxes(there.view, {out}, nullptr);
+    const int reach = padded.reach();
+    const ImageView<const uint16_t> expected{boxes.along(-reach, -reach), padded.rows().size,
+                                             boxes.stride() * 2};
+    out.expect(expected, "boxes");
+  });
+}
+
+void parity_searchShifts() {
+  for (const Size size : {Size{4, 1}, Size{13, 9}, Size{47, 40}, Size{64, 33}})
+    for (int fill = 0; fill < kFills && !::testing::Test::HasFailure(); ++fill) {
+      SCOPED_TRACE(std::to_string(size.width) + ", fill " + std::to_string(fill));
+      checkSearch(size, fill, {2, 3});
+      checkSearch(size, fill, {8, 9});
+    }
+}
+
+}  // namespace rg::test
