@@ -4,6 +4,8 @@
 
 #include "kernels/device.hpp"
 
+#include <cstdint>
+
 namespace rg::gpu {
 
 inline constexpr int kReduceThreads = 256;
@@ -27,6 +29,30 @@ __device__ T reduceBlock(T value, Array& values, const Join& join) {
   }
   __syncthreads();  // The next call may write.
   return all;
+}
+
+/// The sum of the threads before this one in the block; `total` is that of all. warpSums: a block's
+/// array of kReduceWarps. All threads must call.
+template <class Array>
+__device__ uint32_t sumBefore(uint32_t value, Array& warpSums, uint32_t& total) {
+  const int lane = static_cast<int>(threadIdx.x) % kWarp,
+            warp = static_cast<int>(threadIdx.x) / kWarp;
+  uint32_t sum = value;
+  for (int i = 1; i < kWarp; i *= 2) {
+    const uint32_t before = __shfl_up_sync(kFullWarp, sum, static_cast<unsigned>(i));
+    if (lane >= i) sum += before;
+  }
+  if (lane == kWarp - 1) warpSums[warp] = sum;
+  __syncthreads();
+  uint32_t earlier = 0;
+  total = 0;
+  for (int i = 0; i < kReduceWarps; ++i) {
+    const uint32_t of = warpSums[i];
+    if (i < warp) earlier += of;
+    total += of;
+  }
+  __syncthreads();  // The next call may write.
+  return earlier + sum - value;
 }
 
 }  // namespace rg::gpu

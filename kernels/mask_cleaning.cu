@@ -48,33 +48,21 @@ __global__ void keepMajorityOfWords(BitView mask, int radius, int limit, BitTarg
     out.words.at(at.x, at.y) = word & columnsOf(mask.size.width, at.x);
 }
 
-/// Sets or clears the parts that isChosen(component) is true for.
-template <class Choice>
-__global__ void changeParts(BitTarget mask, bool value, Choice isChosen, ComponentsView found) {
-  const WordOfThread word = wordOfThread(mask.words.size);
-  if (!word.isInside) return;
-  uint64_t changed = 0;
-  forRunsIn(found, word, [&](uint32_t run, uint64_t bits) {
-    if (isChosen(found.list[found.runs[run].component])) changed |= bits;
-  });
-  if (changed == 0) return;
-  uint64_t& columns = mask.words.at(word.at.x, word.at.y);
-  columns = value ? columns | changed : columns & ~changed;
-}
-
 struct IsSmall {
   uint32_t leastPx;
-  __device__ bool operator()(const Component& part) const { return part.areaPx < leastPx; }
+  __device__ bool operator()(const ComponentsView& found, uint32_t part) const {
+    return found.list[part].areaPx < leastPx;
+  }
 };
 
 struct IsHole {
   uint32_t mostPx;
   Size size;
-  __device__ bool operator()(const Component& part) const {
-    const Box& box = part.box;
+  __device__ bool operator()(const ComponentsView& found, uint32_t part) const {
+    const Box& box = found.list[part].box;
     const bool touchesBorder =
         box.x == 0 || box.y == 0 || box.right() == size.width || box.bottom() == size.height;
-    return !touchesBorder && part.areaPx <= mostPx;
+    return !touchesBorder && found.list[part].areaPx <= mostPx;
   }
 };
 
@@ -95,11 +83,6 @@ __global__ void countStrong(BitView strong, ComponentsView found) {
     const auto count = static_cast<uint32_t>(__popcll(columns & bits));
     if (count != 0) atomicAdd(&found.list[found.runs[run].component].areaPx, count);
   });
-}
-
-Launch overWords(const char* name, const BitView& mask, double bytesOfWord) {
-  const auto words = static_cast<double>(mask.words.size.area());
-  return launchOverList(name, mask.words.size.area(), {bytesOfWord * words, 4 * words});
 }
 
 }  // namespace

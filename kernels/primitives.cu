@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Of our own and not CUB's: so the very code is tested on the host, and a scan of a frame's words
 // is too small for a library to be faster.
+#include "kernels/block_reduce.hpp"
 #include "kernels/primitives.hpp"
 #include "kernels/start.hpp"
 #include "kernels/threads.hpp"
@@ -8,33 +9,9 @@
 namespace rg::gpu {
 namespace {
 
-constexpr int kThreads = 256, kEach = 4;
+constexpr int kThreads = kReduceThreads, kEach = 4;
 constexpr int kChunk = kThreads * kEach;
-constexpr int kWarps = kThreads / kWarp;
-
-/// The sum of the threads before this one in the block; `total` is that of all. warpSums: a block's
-/// array of kWarps. All threads must call.
-template <class Array>
-__device__ uint32_t sumBefore(uint32_t value, Array& warpSums, uint32_t& total) {
-  const int lane = static_cast<int>(threadIdx.x) % kWarp,
-            warp = static_cast<int>(threadIdx.x) / kWarp;
-  uint32_t sum = value;
-  for (int i = 1; i < kWarp; i *= 2) {
-    const uint32_t before = __shfl_up_sync(kFullWarp, sum, static_cast<unsigned>(i));
-    if (lane >= i) sum += before;
-  }
-  if (lane == kWarp - 1) warpSums[warp] = sum;
-  __syncthreads();
-  uint32_t earlier = 0;
-  total = 0;
-  for (int i = 0; i < kWarps; ++i) {
-    const uint32_t of = warpSums[i];
-    if (i < warp) earlier += of;
-    total += of;
-  }
-  __syncthreads();  // The next call may write.
-  return earlier + sum - value;
-}
+constexpr int kWarps = kReduceWarps;
 
 /// Sums within each chunk, and the chunks' totals.
 __global__ void scanChunks(const uint32_t* numbers, int count, uint32_t* sums, uint32_t* totals) {

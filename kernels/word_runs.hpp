@@ -42,4 +42,24 @@ __device__ void forRunsIn(const ComponentsView& found, const WordOfThread& word,
   forRunsFrom(found, word.index, [&](uint32_t run) { visit(run, bitsOf(found.runs[run])); });
 }
 
+/// Sets or clears in `mask` the parts that isChosen(found, component) is true for.
+template <class Choice>
+__global__ void changeParts(BitTarget mask, bool value, Choice isChosen, ComponentsView found) {
+  const WordOfThread word = wordOfThread(mask.words.size);
+  if (!word.isInside) return;
+  uint64_t changed = 0;
+  forRunsIn(found, word, [&](uint32_t run, uint64_t bits) {
+    if (isChosen(found, found.runs[run].component)) changed |= bits;
+  });
+  if (changed == 0) return;
+  uint64_t& columns = mask.words.at(word.at.x, word.at.y);
+  columns = value ? columns | changed : columns & ~changed;
+}
+
+/// A launch of a thread for each word.
+inline Launch overWords(const char* name, const BitView& mask, double bytesOfWord) {
+  const auto words = static_cast<double>(mask.words.size.area());
+  return launchOverList(name, mask.words.size.area(), {bytesOfWord * words, 4 * words});
+}
+
 }  // namespace rg::gpu

@@ -33,19 +33,26 @@ constexpr auto kHueReciprocals = [] {
 }();
 }  // namespace detail
 
-/// Hue of a pixel of at least kLeastChroma, else kAchromatic. Of equal channels red counts as the
-/// largest before green, green before blue. |255 · 256 · 2^16 / 24| < 2^31.
-[[nodiscard]] constexpr int hueOf(int red, int green, int blue) {
-  const int largest = std::max({red, green, blue});
-  const int chroma = largest - std::min({red, green, blue});
+/// hueOf for who has no table: reciprocalOf(chroma) is 256 / chroma in Q16, rounded.
+template <class Reciprocal>
+[[nodiscard]] constexpr int hueBy(int red, int green, int blue, const Reciprocal& reciprocalOf) {
+  const int largest = std::max(red, std::max(green, blue));
+  const int chroma = largest - std::min(red, std::min(green, blue));
   if (chroma < kLeastChroma) return kAchromatic;
-  const int32_t reciprocal = detail::kHueReciprocals[static_cast<size_t>(chroma)];
+  const int32_t reciprocal = reciprocalOf(chroma);
   const auto turn = [&](int a, int b) { return roundShift((a - b) * reciprocal, 16); };
   if (largest == red) {
     const int hue = turn(green, blue);
     return hue < 0 ? hue + kHueCount : hue;
   }
   return largest == green ? 2 * kHueSextant + turn(blue, red) : 4 * kHueSextant + turn(red, green);
+}
+
+/// Hue of a pixel of at least kLeastChroma, else kAchromatic. Of equal channels red counts as the
+/// largest before green, green before blue. |255 · 256 · 2^16 / 24| < 2^31.
+[[nodiscard]] constexpr int hueOf(int red, int green, int blue) {
+  return hueBy(red, green, blue,
+               [](int chroma) { return detail::kHueReciprocals[static_cast<size_t>(chroma)]; });
 }
 static_assert(hueOf(255, 0, 0) == 0 && hueOf(255, 255, 0) == 256 && hueOf(0, 255, 0) == 512);
 static_assert(hueOf(0, 0, 255) == 1024 && hueOf(255, 0, 255) == 1280 && hueOf(100, 0, 1) == 1533);

@@ -24,26 +24,6 @@ HueBand widen(const HueBand& band, int margin) {
   return {first < 0 ? first + kHueCount : first, std::min(band.count + 2 * margin, kHueCount)};
 }
 
-/// What hue alone says of a pixel.
-class HueJudge {
- public:
-  HueJudge(const HueRules& rules, const HueBand& peak) : objects_(rules.objectBand) {
-    if (rules.background == BackgroundHue::Given) background_ = rules.backgroundBand;
-    if (rules.background == BackgroundHue::FromPeak) background_ = widen(peak, kHueGuard);
-  }
-
-  [[nodiscard]] uint8_t operator()(int red, int green, int blue) const {
-    const int hue = hueOf(red, green, blue);
-    if (hue == kAchromatic) return kNoHue;
-    const bool isObject =
-        !background_.contains(hue) && (objects_.count == 0 || objects_.contains(hue));
-    return isObject ? kObjectHue : kBackgroundHue;
-  }
-
- private:
-  HueBand background_, objects_;
-};
-
 /// Object against background pixels of the 3x3 around each; of equal numbers the pixel's own class
 /// stays.
 void settleRow(const Image<uint8_t>& raw, int y, ImageView<const uint8_t> scope, uint8_t* out) {
@@ -62,10 +42,7 @@ void settleRow(const Image<uint8_t>& raw, int y, ImageView<const uint8_t> scope,
     const int votes = left + middle + right;
     left = middle;
     middle = right;
-    const uint8_t own = rows[1][x];
-    const bool isSettled = own == kNoHue || votes == 0;
-    const uint8_t settled = votes > 0 ? kObjectHue : kBackgroundHue;
-    out[x] = isIn && !isInScope(isIn[x]) ? kBackgroundHue : isSettled ? own : settled;
+    out[x] = isIn && !isInScope(isIn[x]) ? kBackgroundHue : settledClass(rows[1][x], votes);
   }
 }
 
@@ -99,6 +76,17 @@ Error noBand(std::string_view text) {
 }
 
 }  // namespace
+
+HueBands bandsOf(const HueRules& rules, const HueBand& peak) {
+  switch (rules.background) {
+    case BackgroundHue::Given:
+      return {rules.backgroundBand, rules.objectBand};
+    case BackgroundHue::FromPeak:
+      return {widen(peak, kHueGuard), rules.objectBand};
+    default:
+      return {{}, rules.objectBand};
+  }
+}
 
 HueBand findFrameBand(const Picture& picture, const Executor& executor) {
   if (picture.isGrey()) return {};
@@ -145,7 +133,7 @@ Result<HueRules> parseHueRules(std::string_view background, std::string_view obj
 void classifyHues(const Picture& picture, const HueRules& rules, const HueBand& peak,
                   ImageView<const uint8_t> scope, const Executor& executor, Image<uint8_t>& raw,
                   ImageView<uint8_t> classes) {
-  const HueJudge judge(rules, peak);
+  const HueBands bands = bandsOf(rules, peak);
   raw.resize(picture.size());
   const int width = raw.width();
   // Only what is looked at is converted.
@@ -161,7 +149,7 @@ void classifyHues(const Picture& picture, const HueRules& rules, const HueBand& 
                     *blue = picture.blue().row(y);
       const uint8_t* isIn = scope.data ? scope.row(y) : nullptr;
       for (int x = 0; x < width; ++x)
-        if (!isIn || isInScope(isIn[x])) out[x] = judge(red[x], green[x], blue[x]);
+        if (!isIn || isInScope(isIn[x])) out[x] = bands.classOf(hueOf(red[x], green[x], blue[x]));
     }
   });
   executor.forRows(raw.height(), [&](int first, int last) {

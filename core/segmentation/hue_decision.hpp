@@ -38,6 +38,26 @@ struct HueRules {
   }
 };
 
+/// What hue alone says of a pixel, for it lies in these bands or not.
+struct HueBands {
+  HueBand background, objects;
+
+  [[nodiscard]] constexpr uint8_t classOf(int hue) const {
+    if (hue == kAchromatic) return kNoHue;
+    const bool isObject =
+        !background.contains(hue) && (objects.count == 0 || objects.contains(hue));
+    return isObject ? kObjectHue : kBackgroundHue;
+  }
+};
+[[nodiscard]] HueBands bandsOf(const HueRules& rules, const HueBand& peak);
+
+/// The class of a pixel of the class `own` in whose 3x3 `votes` more are of an object than of the
+/// background.
+[[nodiscard]] constexpr uint8_t settledClass(uint8_t own, int votes) {
+  if (own == kNoHue || votes == 0) return own;
+  return votes > 0 ? kObjectHue : kBackgroundHue;
+}
+
 /// The band of the background's hues: that of the histogram of every fourth pixel of every fourth
 /// row, of the whole frame whatever part of it is looked at.
 [[nodiscard]] HueBand findFrameBand(const Picture& picture, const Executor& executor);

@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace rg {
@@ -103,19 +104,41 @@ double microseconds(const gpu::Work& work, const Device& device) {
          std::max(work.bytes / device.bytesPerSecond, work.operations / device.operationsPerSecond);
 }
 
+/// The launches of one kernel in a frame.
+struct Row {
+  gpu::Launch launch;
+  int count = 0;
+  double us[2] = {};
+};
+
+std::vector<Row> rowsOfFrame() {
+  std::vector<Row> rows;
+  for (const gpu::Launch& launch : gpu::shim::launches()) {
+    const auto isSame = [&](const Row& row) {
+      return std::string_view(row.launch.name) == launch.name;
+    };
+    auto row = std::find_if(rows.begin(), rows.end(), isSame);
+    if (row == rows.end()) row = rows.insert(rows.end(), {launch});
+    ++row->count;
+    for (int i = 0; i < 2; ++i) row->us[i] += microseconds(launch.work, kDevices[i]);
+  }
+  return rows;
+}
+
 void print(Size size) {
   std::printf("modelled, not measured: %dx%d, NV12\n", size.width, size.height);
-  std::printf("%-16s %12s %8s %9s %9s %9s %9s\n", "kernel", "grid", "block", "MB", "Mop", "H200 us",
-              "H100 us");
+  std::printf("%-16s %8s %12s %6s %8s %9s %8s %8s\n", "kernel", "launches", "grid", "block", "MB",
+              "Mop", "H200 us", "H100 us");
   double sums[2] = {};
-  for (const gpu::Launch& launch : gpu::shim::launches()) {
-    double times[2];
-    for (int i = 0; i < 2; ++i) sums[i] += times[i] = microseconds(launch.work, kDevices[i]);
+  for (const Row& row : rowsOfFrame()) {
+    const gpu::Launch& launch = row.launch;
+    for (int i = 0; i < 2; ++i) sums[i] += row.us[i];
     const std::string grid = std::to_string(launch.grid.x) + "x" + std::to_string(launch.grid.y) +
                              "x" + std::to_string(launch.grid.z);
-    std::printf("%-16s %12s %8u %9.2f %9.2f %9.2f %9.2f\n", launch.name, grid.c_str(),
-                launch.block.x * launch.block.y * launch.block.z, launch.work.bytes / 1e6,
-                launch.work.operations / 1e6, times[0], times[1]);
+    std::printf("%-16s %8d %12s %6u %8.2f %9.2f %8.2f %8.2f\n", launch.name, row.count,
+                grid.c_str(), launch.block.x * launch.block.y * launch.block.z,
+                row.count * launch.work.bytes / 1e6, row.count * launch.work.operations / 1e6,
+                row.us[0], row.us[1]);
   }
   const double launches = kLaunchUs * static_cast<double>(gpu::shim::launches().size());
   for (int i = 0; i < 2; ++i)

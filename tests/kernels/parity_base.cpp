@@ -67,4 +67,66 @@ void parity_countLevels() {
   });
 }
 
+namespace {
+
+/// Histograms of pictures, and ones that are hard on corners: flat, one level, two peaks alike, a
+/// long tail, empty.
+template <class Check>
+void forHistograms(const Check& check) {
+  for (int kind = 0; kind < 40 && !::testing::Test::HasFailure(); ++kind) {
+    SCOPED_TRACE("histogram " + std::to_string(kind));
+    Histogram levels{};
+    for (size_t i = 0; i < levels.size(); ++i) {
+      const auto at = static_cast<int>(i);
+      switch (kind % 5) {
+        case 0:
+          levels[i] = 7;
+          break;
+        case 1:
+          levels[i] = at == 6 * kind ? 1u << 28 : 0;
+          break;
+        case 2:
+          levels[i] = at == 3 * kind || at == 3 * kind + 40 ? 1000 : 1;
+          break;
+        case 3:
+          levels[i] = 100000u / static_cast<uint32_t>(1 + at * kind) + hashOf(at, kind, 1) % 9;
+          break;
+        default:
+          levels[i] = kind == 4 ? 0 : hashOf(at, kind, 2) % 1000;
+      }
+    }
+    check(levels);
+  }
+}
+
+}  // namespace
+
+void parity_quantile() {
+  forHistograms([](const Histogram& levels) {
+    for (const int share : {0, 1, 26, 128, 230, 256}) {
+      int level = -1;
+      gpu::quantile(levels.data(), share, &level, nullptr);
+      ASSERT_EQ(level, quantile(levels, share)) << share;
+    }
+  });
+}
+
+void parity_differenceThreshold() {
+  forHistograms([](const Histogram& levels) {
+    for (const int least : {0, 12, 300}) {
+      int threshold = -1;
+      gpu::differenceThreshold(levels.data(), least, &threshold, nullptr);
+      ASSERT_EQ(threshold, differenceThreshold(levels, least)) << least;
+    }
+  });
+}
+
+void parity_contrastThreshold() {
+  forHistograms([](const Histogram& levels) {
+    int threshold = -1;
+    gpu::contrastThreshold(levels.data(), 3, &threshold, nullptr);
+    ASSERT_EQ(threshold, contrastThreshold(levels, 3));
+  });
+}
+
 }  // namespace rg::test

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/background/mask_cleaning.hpp"
+#include "kernels/cast_shadows.hpp"
 #include "kernels/primitives.hpp"
 #include "kernels/shim/block.hpp"
 #include "tests/kernels/parity.hpp"
@@ -204,6 +205,23 @@ void parity_keepSupported() {
     gpu::background::keepSupported(there, Bits(strong), 3, found.view(), nullptr);
     background::keepSupported(mask, strong, 3, scratch);
     there.expect(mask, "supported");
+  });
+}
+
+void parity_keepCastShadows() {
+  forMasks([](const BitMask& mask) {
+    // Darkened patches of it, some of them cut by its gaps.
+    BitMask dark = scattered(mask.size(), 11);
+    keepOnly(mask, dark);
+    Bits there(dark);
+    background::CastShadowScratch scratch;
+    DeviceComponents found(mask.size());
+    std::vector<background::DarkPart> parts(found.runs.size());
+    std::vector<uint32_t> darkOf(found.runs.size(), 0xA5A5A5A5);
+    gpu::background::keepCastShadows(Bits(mask), there, {found.view(), parts.data(), darkOf.data()},
+                                     nullptr);
+    background::keepCastShadows(mask, dark, scratch);
+    there.expect(dark, "cast");
   });
 }
 

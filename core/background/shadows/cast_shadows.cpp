@@ -4,8 +4,6 @@
 namespace rg::background {
 namespace {
 
-constexpr uint32_t kMostDarkShare = 192;  ///< Of 256: an object of which more is dark has none.
-
 /// Is (x, y) inside the picture and foreground that is not darkened?
 bool isSolid(const BitMask& mask, const BitMask& dark, int x, int y) {
   return boundsOf(mask.size()).contains({x, y}) && mask.at(x, y) && !dark.at(x, y);
@@ -36,12 +34,6 @@ void readRun(const BitMask& mask, const BitMask& dark, const ComponentRun& run, 
   }
 }
 
-/// A part that hangs on solid foreground, is open to the background and is not sandwiched.
-bool isCast(const DarkPart& part) {
-  return part.solidContacts > 0 && 3 * part.freeContacts >= part.solidContacts &&
-         2 * part.enclosedColumns <= part.columns;
-}
-
 }  // namespace
 
 void keepCastShadows(const BitMask& mask, BitMask& dark, CastShadowScratch& scratch) {
@@ -62,8 +54,7 @@ void keepCastShadows(const BitMask& mask, BitMask& dark, CastShadowScratch& scra
         static_cast<uint32_t>(countColumns(dark.row(run.y), run.begin, run.end));
   scratch.isChosen.resize(objects.list.size());
   for (size_t i = 0; i < objects.list.size(); ++i)
-    scratch.isChosen[i] =
-        uint64_t{scratch.darkOf[i]} * 256 > uint64_t{objects.list[i].areaPx} * kMostDarkShare;
+    scratch.isChosen[i] = isMostlyDark(scratch.darkOf[i], objects.list[i].areaPx);
   paintComponents(objects, scratch.isChosen, false, dark);
 }
 

@@ -21,6 +21,17 @@ struct DarkPart {
   uint32_t freeContacts = 0;     ///< Pixel sides shared with background.
 };
 
+/// A part that hangs on solid foreground, is open to the background and is not sandwiched.
+[[nodiscard]] constexpr bool isCast(const DarkPart& part) {
+  return part.solidContacts > 0 && 3 * part.freeContacts >= part.solidContacts &&
+         2 * part.enclosedColumns <= part.columns;
+}
+
+/// An object of which more than three quarters is dark has no shadow.
+[[nodiscard]] constexpr bool isMostlyDark(uint32_t darkPx, uint32_t areaPx) {
+  return uint64_t{darkPx} * 256 > uint64_t{areaPx} * 192;
+}
+
 struct CastShadowScratch {
   Components darkParts, objects;
   std::vector<DarkPart> dark;

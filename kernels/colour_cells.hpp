@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Counterpart of core/segmentation/colour_cells.hpp and core/segmentation/colour_links.hpp (paper,
+// section 2.3 phase 1.1): what regions are grown from, up to which neighbours are alike.
+#pragma once
+
+#include "core/segmentation/colour_links.hpp"
+#include "kernels/launch.hpp"
+#include "kernels/views.hpp"
+
+namespace rg::gpu::segmentation {
+
+/// rg::segmentation::ColourGrid in device memory. Cells need weights and ranges; scope without
+/// data: all.
+struct CellTargets {
+  PlaneTargets colours;
+  ImageView<uint8_t> scope, weights, ranges;
+};
+
+/// The smoothed pixels of ColourCells, also out of scope. Channels: red, green, blue.
+void smoothColours(const Planes& picture, const PlaneTargets& out, Stream stream);
+/// Its cells of sidePx 2, 4 or 8; where nothing of a cell is in scope, colours and ranges are left
+/// as they are.
+void averageCells(const Planes& smooth, ImageView<const uint8_t> scope, int sidePx,
+                  const CellTargets& out, Stream stream);
+
+/// rg::segmentation::ColourLinks: links as its LinkBits. nearest is scratch, hues too, which is
+/// needed with a band and three channels only.
+struct LinkTargets {
+  ImageView<uint8_t> links, nearest;
+  ImageView<int16_t> hues;
+};
+void linkColours(const Planes& colours, ImageView<const uint8_t> scope,
+                 const rg::segmentation::LinkParams& params, const LinkTargets& out, Stream stream);
+
+}  // namespace rg::gpu::segmentation

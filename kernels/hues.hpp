@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Counterpart of core/segmentation/hue_decision.hpp (paper, section 2.2.2).
+#pragma once
+
+#include "core/segmentation/hue_decision.hpp"
+#include "kernels/launch.hpp"
+#include "kernels/views.hpp"
+
+namespace rg::gpu::segmentation {
+
+/// rg::segmentation::classifyHues. Channels: red, green, blue. raw is scratch.
+void classifyHues(const Planes& picture, const rg::segmentation::HueBands& bands,
+                  ImageView<const uint8_t> scope, ImageView<uint8_t> raw,
+                  ImageView<uint8_t> classes, Stream stream);
+
+}  // namespace rg::gpu::segmentation
