@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Compiles the kernels for every device and prints what each of them takes: registers, shared
 memory, stack and what did not fit into registers. Fails on warnings, on spills and on stacks, which
-kernels that are made of loops over pixels need none of.
+kernels that are made of loops over pixels need none of, and on traps: nvcc puts them, without a
+word, where code for both sides refers to a constant of the host's memory.
 
 usage: resources.py BUILD_FOLDER
 """
@@ -39,6 +40,16 @@ def kernels_of(path):
             kernel = None
 
 
+def traps_of(path):
+    """The kernels of a file of PTX that end in a trap."""
+    kernel = ''
+    for line in path.read_text(encoding='utf-8').splitlines():
+        if found := re.search(r'\.entry (\w+)', line):
+            kernel = plain_name(found[1])
+        elif line.strip().startswith('trap'):
+            yield kernel
+
+
 def main():
     build = pathlib.Path(sys.argv[1])
     subprocess.run(['ninja', '-C', build, 'cuda-kernels'], check=True, stdout=subprocess.DEVNULL)
@@ -47,8 +58,9 @@ def main():
     for name, device, registers, shared, stack, spilled in rows:
         print(f'{name:24} {"sm_" + device:>6} {registers:9} {shared:6} {stack:5} {spilled:7}')
     bad = [row for row in rows if row[4] or row[5]]
-    print(f'{len(rows)} kernels, {len(bad)} with a stack or spills')
-    sys.exit(1 if bad or not rows else 0)
+    traps = sorted({name for path in (build / 'kernels').glob('*.ptx') for name in traps_of(path)})
+    print(f'{len(rows)} kernels, {len(bad)} with a stack or spills; traps: {traps}')
+    sys.exit(1 if bad or traps or not rows else 0)
 
 
 if __name__ == '__main__':

@@ -7,7 +7,6 @@
 #include "core/base/pixel.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 
 namespace rg::background {
@@ -17,13 +16,20 @@ inline constexpr uint32_t kLearnPeriod = 8;
 inline constexpr uint8_t kCalmPeriod = 8;  ///< Also what unrest loses a turn.
 inline constexpr int kFlip = 16;           ///< What it gains by a flip.
 
-inline constexpr std::array<Point, 8> kNeighbours{
-    {{-1, -1}, {0, -1}, {1, -1}, {-1, 0}, {1, 0}, {-1, 1}, {0, 1}, {1, 1}}};
+// No tables, and no references to constants: a GPU has no memory that holds them.
+
+/// Where the eight neighbours of a pixel lie, in raster order; i: 0 … 7.
+[[nodiscard]] constexpr Point neighbourOffset(int i) {
+  const int place = i < 4 ? i : i + 1;
+  return {place % 3 - 1, place / 3 - 1};
+}
+static_assert(neighbourOffset(0) == Point{-1, -1} && neighbourOffset(3) == Point{-1, 0} &&
+              neighbourOffset(4) == Point{1, 0} && neighbourOffset(7) == Point{1, 1});
 
 /// Where the colour comes from that a sample of a row is filled with: the first two are the pixel
 /// itself, the others its eight neighbours in turn.
 [[nodiscard]] constexpr Point fillOffset(int sample) {
-  return sample < 2 ? Point{} : kNeighbours[static_cast<size_t>((sample - 2) % 8)];
+  return sample < 2 ? Point{} : neighbourOffset((sample - 2) % 8);
 }
 
 /// What all columns of a row draw in a round: the seeds of their own colour's turn and of a
@@ -35,7 +41,7 @@ struct Draw {
 [[nodiscard]] constexpr Draw drawOf(uint32_t frame, int y, uint32_t round) {
   const uint64_t seed = uint64_t{frame} << 32 | static_cast<uint32_t>(y) << 2 | round;
   const uint64_t other = mixHash64(seed + 1);
-  return {mixHash64(seed), other, kNeighbours[other >> 8 & 7]};
+  return {mixHash64(seed), other, neighbourOffset(static_cast<int>(other >> 8 & 7))};
 }
 
 /// Four dice of 16 bits for a word of 64 columns, each for 16 of them.
@@ -52,7 +58,7 @@ struct LearningTurns {
   uint32_t period, limit;
 };
 [[nodiscard]] constexpr LearningTurns turnsOf(int interval) {
-  const uint32_t period = std::min(kLearnPeriod, static_cast<uint32_t>(interval));
+  const uint32_t period = std::min(uint32_t{kLearnPeriod}, static_cast<uint32_t>(interval));
   return {period, 65536u * period / static_cast<uint32_t>(interval)};
 }
 
@@ -68,7 +74,7 @@ static_assert(followedNoise(8, 2) == 10 && followedNoise(9, 1) == 8);
   return static_cast<uint8_t>(std::min(255, unrest + kFlip));
 }
 [[nodiscard]] constexpr uint8_t calmedUnrest(uint8_t unrest) {
-  return static_cast<uint8_t>(std::max(unrest, kCalmPeriod) - kCalmPeriod);
+  return static_cast<uint8_t>(unrest > kCalmPeriod ? unrest - kCalmPeriod : 0);
 }
 
 }  // namespace rg::background

@@ -45,7 +45,7 @@ struct GaussianPixel {
   const int square = static_cast<int>(static_cast<uint32_t>(delta * int64_t{delta} >> 12));
   const int variance = model.variance + roundShift(square - model.variance, shift);
   return {static_cast<uint16_t>(model.mean + roundShift(delta, shift)),
-          static_cast<uint16_t>(std::clamp(variance, kLeastVariance, kMostVariance))};
+          static_cast<uint16_t>(std::clamp(variance, int{kLeastVariance}, int{kMostVariance}))};
 }
 
 [[nodiscard]] constexpr uint8_t meanLevel(uint16_t mean) {
