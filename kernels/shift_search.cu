@@ -11,7 +11,6 @@ namespace {
 using rg::motion::FoundShift;
 using rg::motion::kBlockWidth;
 using rg::motion::kBoxSide;
-using rg::motion::kMostBound;
 using rg::motion::kPartHeight;
 using rg::motion::MatchedPart;
 using rg::motion::ShiftRange;
@@ -89,7 +88,7 @@ __global__ void sumShifts(const __grid_constant__ MatchedRegions regions, int fi
     for (int half = 0; half < 2; ++half) addHalf(regions.parts[i], half, shifted, sums);
   const int at = static_cast<int>(blockIdx.y) * side * side + shift;
   out.sums[at] = sums.sum;
-  out.bounds[at] = sums.bound < kMostBound ? sums.bound : kMostBound;
+  out.bounds[at] = sums.bound;
 }
 
 /// Smallest (sum, |d|², d.y, d.x): |d|² < 2^14, and the rest fits a byte each.

@@ -52,7 +52,8 @@ struct Regions {
     if (rows < motion::kPartHeight) blocks &= (uint64_t{1} << (2 * rows)) - 1;
     if ((at.x + 1) * motion::kPartWidth > size.width) blocks &= 0x5555555555555555;
     if (at.x * motion::kPartWidth + motion::kBlockWidth > size.width || blocks == 0) return;
-    parts.push_back({blocks, static_cast<uint16_t>(at.x), static_cast<uint16_t>(at.y), label});
+    parts.push_back({blocks, static_cast<uint16_t>(at.x), static_cast<uint16_t>(at.y),
+                     segmentation::RegionLabel::ofNumber(label)});
   }
   [[nodiscard]] int count() const { return static_cast<int>(starts.size()) - 1; }
   [[nodiscard]] std::span<const MatchedPart> of(int region) const {
@@ -75,13 +76,11 @@ void checkSearch(Size size, int fill, const motion::ShiftRange& range) {
   for (int y = 0; y < size.height; ++y)
     for (int x = 0; x < size.width; ++x)
       now.at(x, y) = static_cast<uint8_t>(levelAt(fill, x + 2, y + 1) + (x * y % 7 == 0));
-  motion::PaddedLuma padded;
-  padded.build(before, range.reach + 1, oneThread());
-  motion::BoxSums boxes;
-  boxes.build(padded, oneThread());
+  motion::SearchedPicture searched;
+  searched.build(before, range.reach + 1, oneThread());
   Plane<uint8_t> luma(now.view());
-  DeviceLuma previous(padded, size);
-  Plane<uint16_t> sums(padded.rows().size);
+  DeviceLuma previous(searched.luma, size);
+  Plane<uint16_t> sums(searched.luma.rows().size);
   gpu::motion::padLuma(Plane<uint8_t>(before.view()), previous.view, nullptr);
   gpu::motion::sumBoxes(previous.view, {sums}, nullptr);
 
@@ -96,7 +95,7 @@ void checkSearch(Size size, int fill, const motion::ShiftRange& range) {
   motion::SearchScratch coreScratch;
   for (int i = 0; i < regions.count(); ++i)
     expectSame(found[static_cast<size_t>(i)],
-               motion::searchShifts(regions.of(i), now, {padded, boxes}, range, coreScratch));
+               motion::searchShifts(regions.of(i), now, searched, range, coreScratch));
 }
 
 }  // namespace
