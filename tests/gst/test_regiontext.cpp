@@ -88,14 +88,7 @@ TEST_F(RegionText, FillsAFileAndAFileForEachLine) {
          sink)
             .c_str(),
         nullptr);
-    gst_element_set_state(pipeline, GST_STATE_PLAYING);
-    GstBus* bus = gst_element_get_bus(pipeline);
-    GstMessage* message = gst_bus_timed_pop_filtered(
-        bus, GST_CLOCK_TIME_NONE, static_cast<GstMessageType>(GST_MESSAGE_ERROR | GST_MESSAGE_EOS));
-    EXPECT_EQ(GST_MESSAGE_TYPE(message), GST_MESSAGE_EOS);
-    gst_message_unref(message);
-    gst_object_unref(bus);
-    gst_element_set_state(pipeline, GST_STATE_NULL);
+    EXPECT_EQ(testing::playToEnd(pipeline), GST_MESSAGE_EOS);
     gst_object_unref(pipeline);
   };
   run("filesink location=" + path_);

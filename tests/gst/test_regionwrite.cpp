@@ -1,14 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "tests/support/harness.hpp"
-#include "tests/support/results.hpp"
-
-#include <gtest/gtest.h>
+#include "tests/support/written_lines.hpp"
 
 #include <csignal>
 #include <fcntl.h>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -25,26 +19,11 @@ using testing::square;
 
 constexpr Size kSize{64, 48};
 
-class RegionWrite : public ::testing::Test {
+class RegionWrite : public testing::WrittenLines {
  protected:
-  void SetUp() override {
-    auto pattern = (std::filesystem::temp_directory_path() / "regionwrite-XXXXXX").string();
-    ASSERT_TRUE(mkdtemp(pattern.data()));
-    folder_ = pattern;
-    path_ = (folder_ / "out").string();
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   [[nodiscard]] std::string line(const std::string& more = "") const {
     return "regionwrite drop=false location=" + path_ + " " + more;
   }
-  [[nodiscard]] std::string written() const {
-    std::ifstream file(path_, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
-
-  std::filesystem::path folder_;
-  std::string path_;
 };
 
 BufferPtr frame(int index, std::shared_ptr<const objects::Objects> objects) {

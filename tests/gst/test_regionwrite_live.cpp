@@ -181,14 +181,7 @@ GstMessageType endOf(const std::string& source, const std::string& writer, guint
        writer + " ! fakesink sync=false")
           .c_str(),
       nullptr);
-  gst_element_set_state(pipeline, GST_STATE_PLAYING);
-  GstBus* bus = gst_element_get_bus(pipeline);
-  GstMessage* message = gst_bus_timed_pop_filtered(
-      bus, GST_CLOCK_TIME_NONE, static_cast<GstMessageType>(GST_MESSAGE_ERROR | GST_MESSAGE_EOS));
-  const GstMessageType type = GST_MESSAGE_TYPE(message);
-  gst_message_unref(message);
-  gst_object_unref(bus);
-  gst_element_set_state(pipeline, GST_STATE_NULL);
+  const GstMessageType type = testing::playToEnd(pipeline);
   GstElement* element = gst_bin_get_by_name(GST_BIN(pipeline), "w");
   g_object_get(element, "dropped", &dropped, nullptr);
   gst_object_unref(element);

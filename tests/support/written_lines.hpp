@@ -58,6 +58,17 @@ inline BufferPtr frameWith(int index, int count, const Caps& caps = {}) {
   return buffer;
 }
 
+/// Plays a pipeline to its end, which is told: an end of stream or an error.
+inline GstMessageType playToEnd(GstElement* pipeline) {
+  gst_element_set_state(pipeline, GST_STATE_PLAYING);
+  GstBus* bus = gst_element_get_bus(pipeline);
+  const MessagePtr message(gst_bus_timed_pop_filtered(
+      bus, GST_CLOCK_TIME_NONE, static_cast<GstMessageType>(GST_MESSAGE_ERROR | GST_MESSAGE_EOS)));
+  gst_object_unref(bus);
+  gst_element_set_state(pipeline, GST_STATE_NULL);
+  return GST_MESSAGE_TYPE(message.get());
+}
+
 /// Waits as long as it takes: a test that hangs has failed.
 inline void await(const std::function<bool()>& isReached) {
   while (!isReached()) g_usleep(1000);
