@@ -135,6 +135,8 @@ const char* messageOf(background::SceneEvent event) {
     case background::SceneEvent::TooDark:
     case background::SceneEvent::BrightAgain:
       return "regiongraph-too-dark";
+    case background::SceneEvent::ModelLost:
+      return "regiongraph-model-lost";
   }
   return nullptr;
 }

@@ -1,28 +1,20 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Starting kernels: shapes of grids, streams, checked calls.
 //
-// No function of kernels/ allocates, waits or copies back: what comes in is device memory that the
-// caller owns, what is asked for has happened when the stream has come so far.
+// No kernel's function allocates, waits or copies back: what comes in is device memory that the
+// caller owns, what is asked for has happened when the stream has come so far. A launch that is
+// refused throws DeviceError.
 #pragma once
 
 #include "core/base/geometry.hpp"
 
 #include <cstdint>
-#include <stdexcept>
-#include <string>
 
 struct CUstream_st;
 
 namespace rg::gpu {
 
 using Stream = CUstream_st*;
-
-/// A call of CUDA's that failed.
-class Error : public std::runtime_error {
- public:
-  Error(const char* call, const char* reason)
-      : std::runtime_error(std::string(call) + ": " + reason) {}
-};
 
 struct Extent {
   unsigned x = 1, y = 1, z = 1;

@@ -2,18 +2,25 @@
 // The one place that starts kernels; for .cu files only.
 #pragma once
 
+#include "core/base/memory/device.hpp"
 #include "kernels/device.hpp"
 #include "kernels/launch.hpp"
+
+#include <string>
 
 namespace rg::gpu {
 
 #if defined(__CUDACC__)
 
-/// Throws what CUDA says, and clears it, so that the next call does not find it again.
+/// Throws what CUDA says, and clears it, so that the next call does not find it again. What can't
+/// be cleared has cost the device's context: every later call says it too.
 inline void check(cudaError_t code, const char* call) {
   if (code == cudaSuccess) return;
   (void)cudaGetLastError();
-  throw Error(call, cudaGetErrorString(code));
+  const cudaError_t later = cudaStreamQuery(nullptr);
+  const bool isLost = later != cudaSuccess && later != cudaErrorNotReady;
+  throw DeviceError(isLost ? DeviceError::Kind::Lost : DeviceError::Kind::Failed,
+                    std::string(call) + ": " + cudaGetErrorString(code));
 }
 
 template <class... Parameters, class... Arguments>
@@ -34,10 +41,12 @@ inline void clear(void* memory, size_t bytes, Stream stream) {
 template <class... Parameters, class... Arguments>
 void start(const Launch& launch, Stream, void (*kernel)(Parameters...),
            const Arguments&... arguments) {
+  shim::call(launch.name);
   shim::run(launch, [&] { kernel(arguments...); });
 }
 
 inline void clear(void* memory, size_t bytes, Stream) {
+  shim::call("clear");
   shim::clear(memory, bytes);
 }
 

@@ -8,6 +8,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace rg::background {
 namespace {
@@ -20,18 +21,29 @@ void clearOutside(ImageView<const uint8_t> interest, ImageView<uint8_t> mask) {
   }
 }
 
-class CpuBackgroundStage final : public Stage {
+class BackgroundStage final : public Stage {
  public:
-  explicit CpuBackgroundStage(Context context) : context_(std::move(context)) {}
+  explicit BackgroundStage(Context context)
+      : context_(std::move(context)), operations_(makeOperations(context_)) {}
 
   Result<std::shared_ptr<const Foreground>> process(std::shared_ptr<const Picture> picture,
                                                     const Params& params, FrameTime time) override;
   void reset(Reset what) override;
 
+  /// Whether the device was lost while the model was there.
+  [[nodiscard]] bool bequeath() const noexcept {
+    return model_ && wasOnDevice_ && context_.device->error() != nullptr &&
+           context_.device->error()->isLost();
+  }
+  void inherit(bool hasLostModel) noexcept { hasLostModel_ = hasLostModel; }
+
  private:
   MethodModel& modelOf(Method method);
 
   Context context_;
+  std::unique_ptr<Operations> operations_;
+  const bool wasOnDevice_ = context_.device && context_.device->isUp();
+  bool hasLostModel_ = false;  ///< Not told yet.
   FrameClock clock_;
   Size size_;
   bool isGrey_ = false;
@@ -54,7 +66,7 @@ std::unique_ptr<MethodModel> makeModel(Method method) {
 }
 
 /// Another method starts anew: the models have nothing in common.
-MethodModel& CpuBackgroundStage::modelOf(Method method) {
+MethodModel& BackgroundStage::modelOf(Method method) {
   if (!model_ || method_ != method) {
     model_ = makeModel(method);
     method_ = method;
@@ -62,7 +74,7 @@ MethodModel& CpuBackgroundStage::modelOf(Method method) {
   return *model_;
 }
 
-Result<std::shared_ptr<const Foreground>> CpuBackgroundStage::process(
+Result<std::shared_ptr<const Foreground>> BackgroundStage::process(
     std::shared_ptr<const Picture> picture, const Params& params, FrameTime time) {
   if (!picture || picture->size().isEmpty()) return Error{"the picture has no pixels"};
   const Size size = picture->size();
@@ -86,12 +98,13 @@ Result<std::shared_ptr<const Foreground>> CpuBackgroundStage::process(
     out->mask.resize(size);
     out->extent = boundsOf(size);
   }
-  model.segment({std::move(picture), params, clock_, *context_.cpu}, *out);
+  model.segment({std::move(picture), params, clock_, *context_.cpu, *operations_}, *out);
 
   out->interest = params.interest;
   const Box& extent = out->extent;
   const ImageView<uint8_t> mask = out->mask.view().crop(extent);
   if (out->interest) clearOutside(out->interest->view().crop(extent), mask);
+  if (std::exchange(hasLostModel_, false)) out->scene.event = SceneEvent::ModelLost;
   findComponents(mask, kForegroundPixel, Connectivity::Eight, parts_);
   out->areas.clear();
   for (const Component& part : parts_.list) {
@@ -102,7 +115,7 @@ Result<std::shared_ptr<const Foreground>> CpuBackgroundStage::process(
   return {std::move(out)};
 }
 
-void CpuBackgroundStage::reset(Reset) {
+void BackgroundStage::reset(Reset) {
   clock_.breakOff();
   if (model_) model_->breakOff();
 }
@@ -110,7 +123,7 @@ void CpuBackgroundStage::reset(Reset) {
 }  // namespace
 
 std::unique_ptr<Stage> makeStage(Context context) {
-  return std::make_unique<RenewedStage<Stage, CpuBackgroundStage>>(std::move(context));
+  return std::make_unique<RenewedStage<Stage, BackgroundStage>>(std::move(context));
 }
 
 }  // namespace rg::background

@@ -32,6 +32,7 @@ enum class SceneEvent : uint8_t {
   CameraShaken,    ///< The camera was pushed by a few pixels; told once a second at most.
   TooDark,         ///< Nothing can be seen: no foreground, nothing is learnt, until it is
   BrightAgain,     ///< bright again.
+  ModelLost,       ///< A device was lost with the model in it, which starts anew on the CPU.
 };
 
 /// Does the picture look otherwise from this frame on?

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/background/background.hpp"
+#include "core/background/operations.hpp"
 #include "core/base/time/frame_clock.hpp"
 #include "core/base/time/frame_count.hpp"
 
@@ -14,6 +15,7 @@ struct MethodJob {
   const Params& params;
   const FrameClock& clock;
   const Executor& executor;
+  Operations& on;  ///< Of method hybrid.
 };
 
 class MethodModel {

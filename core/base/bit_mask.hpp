@@ -38,6 +38,9 @@ class BitMask {
     assert(x >= 0 && x < size_.width);
     return (row(y)[x / kWordColumns] >> (x % kWordColumns) & 1) != 0;
   }
+  /// A row's words; bits beyond the width stay 0.
+  [[nodiscard]] Image<uint64_t>& words() { return words_; }
+  [[nodiscard]] const Image<uint64_t>& words() const { return words_; }
   void set(int x, int y) { row(y)[x / kWordColumns] |= uint64_t{1} << (x % kWordColumns); }
 
   /// The bits of a row's word that stand for columns of the mask.

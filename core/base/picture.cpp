@@ -32,12 +32,19 @@ void loadPlanes(const Frame& frame, const Executor& executor, const PicturePlane
   });
 }
 
+Picture::Planes Picture::readOn(Device& device) const {
+  const ImageView<const uint8_t> luma = luma_.readOn(device);
+  if (isGrey_) return {luma, luma, luma, luma};
+  return {red_.readOn(device), green_.readOn(device), blue_.readOn(device), luma};
+}
+
 void Picture::load(const Frame& frame, const Executor& executor) {
   const Size size = frame.size();
   isGrey_ = frame.layout().format == PixelFormat::Gray8;
   luma_.resize(size);
   if (!isGrey_)
     for (Image<uint8_t>* plane : {&red_, &green_, &blue_}) plane->resize(size);
+  for (Image<uint8_t>* plane : {&red_, &green_, &blue_, &luma_}) plane->writeOnHost();
   loadPlanes(frame, executor, {red_, green_, blue_, luma_});
 }
 

@@ -32,6 +32,12 @@ class Picture {
   /// (77 R + 150 G + 29 B + 128) / 256; of Y'CbCr and grey frames Y' as it is stored.
   [[nodiscard]] ImageView<const uint8_t> luma() const { return luma_; }
 
+  /// The planes on a device, which only reads them. Throws DeviceError.
+  struct Planes {
+    ImageView<const uint8_t> red, green, blue, luma;
+  };
+  [[nodiscard]] Planes readOn(Device& device) const;
+
   /// Takes the frame's size and pixels (loadPlanes).
   void load(const Frame& frame, const Executor& executor);
 

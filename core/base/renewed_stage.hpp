@@ -24,7 +24,8 @@ template <class Stage>
 
 /// Interface's process() by a Stage that is made from a Context, and that is asked to reset() for
 /// less than Reset::Stream only. Nothing is allocated on the way out of a failed frame: the
-/// successor is made when the next frame comes.
+/// successor is made when the next frame comes. Where a device was lost with what the stage knew,
+/// the successor gets the very same frame; it runs on the CPU.
 template <class Interface, class Stage, class Process = decltype(&Interface::process)>
 class RenewedStage;
 
@@ -37,11 +38,15 @@ class RenewedStage<Interface, Stage, Outcome (Interface::*)(Inputs...)> final : 
   Outcome process(Inputs... inputs) override {
     if (!stage_) succeed();
     try {
-      return stage_->process(std::forward<Inputs>(inputs)...);
+      return stage_->process(std::as_const(inputs)...);
+    } catch (const DeviceError& error) {
+      drop();
+      if (!error.isLost()) throw;
     } catch (...) {
       drop();
       throw;
     }
+    return process(std::forward<Inputs>(inputs)...);
   }
 
   void reset(Reset what) override {

@@ -2,18 +2,13 @@
 // What the five stages have in common: where they run, what a frame's time is, when they forget.
 #pragma once
 
+#include "core/base/memory/device.hpp"
 #include "core/base/memory/executor.hpp"
 
 #include <cstdint>
 #include <memory>
 
 namespace rg {
-
-/// A processor other than the CPU that a stage may run on. The core knows none; the kernels do.
-class Device {
- public:
-  virtual ~Device() = default;
-};
 
 struct Context {
   std::shared_ptr<const Executor> cpu;

@@ -28,6 +28,8 @@ typedef enum {
  * @GST_REGION_SCENE_EVENT_CAMERA_SHAKEN: the camera was pushed by a few pixels
  * @GST_REGION_SCENE_EVENT_TOO_DARK: from here on nothing can be seen
  * @GST_REGION_SCENE_EVENT_BRIGHT_AGAIN: the end of that
+ * @GST_REGION_SCENE_EVENT_MODEL_LOST: a GPU was lost with the background model in it, which starts
+ *   anew on the CPU
  */
 typedef enum {
   GST_REGION_SCENE_EVENT_NONE,
@@ -36,7 +38,8 @@ typedef enum {
   GST_REGION_SCENE_EVENT_CAMERA_MOVED,
   GST_REGION_SCENE_EVENT_CAMERA_SHAKEN,
   GST_REGION_SCENE_EVENT_TOO_DARK,
-  GST_REGION_SCENE_EVENT_BRIGHT_AGAIN
+  GST_REGION_SCENE_EVENT_BRIGHT_AGAIN,
+  GST_REGION_SCENE_EVENT_MODEL_LOST
 } GstRegionSceneEvent;
 
 /**

@@ -3,6 +3,7 @@
 // it, for full warps; warps that are not whole are told (block.cpp).
 #pragma once
 
+#include "kernels/shim/faults.hpp"
 #include "kernels/shim/shared.hpp"
 
 #include <algorithm>

@@ -40,9 +40,10 @@ class StagedScene {
   static constexpr Size kSize{160, 120};
   static constexpr int64_t kFrameNs = 40'000'000;
 
-  explicit StagedScene(const Stage& stage, background::Params params = {})
+  explicit StagedScene(const Stage& stage, background::Params params = {},
+                       std::shared_ptr<Device> device = nullptr)
       : scene_(stage),
-        stage_(background::makeStage({std::make_shared<const Executor>(1), nullptr})),
+        stage_(background::makeStage({std::make_shared<const Executor>(1), std::move(device)})),
         params_(std::move(params)) {}
 
   std::shared_ptr<const background::Foreground> show(const Take& take) {
@@ -52,6 +53,8 @@ class StagedScene {
     EXPECT_TRUE(result);
     return *result;
   }
+  /// As at the start, but time goes on.
+  void forget() { stage_->reset(Reset::Stream); }
   std::shared_ptr<const background::Foreground> showFor(int frames, const Take& take) {
     for (int i = 1; i < frames; ++i) show(take);
     return show(take);

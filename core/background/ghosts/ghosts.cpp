@@ -149,6 +149,13 @@ void followStill(const SmoothPicture& picture, const ConsensusBackground& model,
   });
 }
 
+void addAged(const BitMask& foreground, const StillPixels& still, int64_t leastAge,
+             BitMask& ghosts) {
+  forSetPixels(foreground, 0, foreground.height(), [&](int x, int y) {
+    if (still.ages.at(x, y) >= leastAge) ghosts.set(x, y);
+  });
+}
+
 uint32_t findGhosts(const SmoothPicture& picture, const ConsensusBackground& model,
                     const BitMask& foreground, StillPixels& still, int leastAge,
                     StillScratch& scratch, BitMask& ghosts) {

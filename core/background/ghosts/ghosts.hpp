@@ -56,6 +56,10 @@ void followStill(const SmoothPicture& picture, const ConsensusBackground& model,
                  const Tolerance& tolerance, const BitMask& foreground, uint16_t mostAge,
                  const Executor& executor, StillPixels& still);
 
+/// Sets in `ghosts` what of `foreground` is at least so old.
+void addAged(const BitMask& foreground, const StillPixels& still, int64_t leastAge,
+             BitMask& ghosts);
+
 /// Of one part: edges across its contour, summed over the pixels where they could be read.
 struct ContourSums {
   int64_t inPicture = 0, inModel = 0;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/base/geometry.hpp"
+#include "core/base/memory/device.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -48,6 +49,9 @@ struct ImageView {
 };
 
 /// Owns its pixels; rows start on 64-byte boundaries. Move-only: a copy would be a hidden cost.
+///
+/// A device may hold the same pixels (memory/device.hpp). Whoever looks at them here says so first,
+/// with readOnHost() or changeOnHost(), wherever a device may have been at work.
 template <class T>
 class Image {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -76,16 +80,19 @@ class Image {
       memory_.reset(static_cast<std::byte*>(::operator new (bytes, std::align_val_t{kAlign})));
       capacity_ = bytes;
     }
+    twin_.reset();
     size_ = size;
     strideBytes_ = static_cast<ptrdiff_t>(stride);
     clearPadding();
   }
 
   void fill(T value) {
+    writeOnHost();
     for (int y = 0; y < size_.height; ++y) std::fill_n(row(y), size_.width, value);
   }
   void copyFrom(ImageView<const T> source) {
     resize(source.size);
+    writeOnHost();
     for (int y = 0; y < size_.height; ++y)
       std::memcpy(row(y), source.row(y), static_cast<size_t>(size_.width) * sizeof(T));
   }
@@ -98,13 +105,43 @@ class Image {
   [[nodiscard]] T& at(int x, int y) { return view().at(x, y); }
   [[nodiscard]] const T& at(int x, int y) const { return view().at(x, y); }
   [[nodiscard]] ImageView<T> view() {
+    assert(!twin_ || twin_->isOnHostOnly());
     return {reinterpret_cast<T*>(memory_.get()), size_, strideBytes_};
   }
   [[nodiscard]] ImageView<const T> view() const {
+    assert(!twin_ || twin_->isOnHost());
     return {reinterpret_cast<const T*>(memory_.get()), size_, strideBytes_};
   }
   operator ImageView<T>() { return view(); }              // NOLINT(google-explicit-constructor)
   operator ImageView<const T>() const { return view(); }  // NOLINT(google-explicit-constructor)
+
+  /// The pixels are here then. Waits for the device, where it has changed them; throws DeviceError
+  /// when it is lost.
+  void readOnHost() const {
+    if (twin_) twin_->readOnHost(memory_.get());
+  }
+  /// And what the device holds counts no more.
+  void changeOnHost() {
+    if (twin_) twin_->changeOnHost(memory_.get());
+  }
+  /// All of them will be written: nothing is fetched.
+  void writeOnHost() {
+    if (twin_) twin_->writeOnHost();
+  }
+
+  /// Where the device has the pixels, the same layout. They are sent when they are not there yet.
+  /// Throws DeviceError.
+  [[nodiscard]] ImageView<const T> readOn(Device& device) const {
+    return {static_cast<const T*>(twin(device).read(memory_.get())), size_, strideBytes_};
+  }
+  /// And what is here counts no more.
+  [[nodiscard]] ImageView<T> changeOn(Device& device) {
+    return {static_cast<T*>(twin(device).change(memory_.get())), size_, strideBytes_};
+  }
+  /// All of them will be written: nothing is sent.
+  [[nodiscard]] ImageView<T> writeOn(Device& device) {
+    return {static_cast<T*>(twin(device).write()), size_, strideBytes_};
+  }
 
  private:
   static constexpr size_t kAlign = 64;
@@ -113,6 +150,13 @@ class Image {
       ::operator delete (memory, std::align_val_t{kAlign});
     }
   };
+
+  [[nodiscard]] DeviceTwin& twin(Device& device) const {
+    if (!twin_)
+      twin_ = std::make_unique<DeviceTwin>(
+          device, static_cast<size_t>(strideBytes_) * static_cast<size_t>(size_.height));
+    return *twin_;
+  }
 
   /// Zeros behind the rows: kernels load whole vectors, and what they make of bytes that nobody
   /// wrote would hide from valgrind what they make of pixels that nobody wrote.
@@ -129,12 +173,14 @@ class Image {
     std::swap(capacity_, other.capacity_);
     std::swap(size_, other.size_);
     std::swap(strideBytes_, other.strideBytes_);
+    std::swap(twin_, other.twin_);
   }
 
   std::unique_ptr<std::byte, Free> memory_;
   size_t capacity_ = 0;
   Size size_;
   ptrdiff_t strideBytes_ = 0;
+  mutable std::unique_ptr<DeviceTwin> twin_;  ///< None: no device has ever seen it.
 };
 
 }  // namespace rg

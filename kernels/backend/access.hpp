@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// What operations do with images: on a device they get views of its memory, before the CPU does
+// them the images come to the host.
+#pragma once
+
+#include "core/background/operations.hpp"
+#include "core/base/bit_mask.hpp"
+#include "core/base/memory/image.hpp"
+#include "kernels/consensus_background.hpp"
+#include "kernels/views.hpp"
+
+#include <concepts>
+#include <cstddef>
+#include <type_traits>
+
+namespace rg::gpu {
+
+template <class T, class Plain>
+concept Of = std::same_as<std::remove_const_t<T>, Plain>;
+
+/// Visits the images that something consists of.
+template <class T, class Visit>
+void forImages(const Image<T>& image, const Visit& visit) {
+  visit(image);
+}
+template <class T, class Visit>
+void forImages(Image<T>& image, const Visit& visit) {
+  visit(image);
+}
+template <Of<BitMask> T, class Visit>
+void forImages(T& mask, const Visit& visit) {
+  visit(mask.words());
+}
+template <Of<rg::background::ShownModel> T, class Visit>
+void forImages(T& shown, const Visit& visit) {
+  for (auto& plane : shown) visit(plane);
+}
+template <Of<rg::background::SmoothPicture> T, class Visit>
+void forImages(T& picture, const Visit& visit) {
+  forImages(picture.planes, visit);
+}
+template <Of<rg::background::ConsensusBackground> T, class Visit>
+void forImages(T& model, const Visit& visit) {
+  for (auto* image : {&model.samples, &model.noise, &model.unrest}) visit(*image);
+}
+template <Of<rg::background::Verdicts> T, class Visit>
+void forImages(T& verdicts, const Visit& visit) {
+  for (auto* mask : {&verdicts.raw, &verdicts.strong, &verdicts.faint}) visit(mask->words());
+}
+template <Of<rg::background::StillPixels> T, class Visit>
+void forImages(T& still, const Visit& visit) {
+  for (auto& plane : still.colours) visit(plane);
+  visit(still.ages);
+  visit(still.aged.words());
+  visit(still.fresh);
+}
+
+/// What the CPU is about to read, to change, to write anew.
+template <class T>
+struct Reads {
+  const T& what;
+  void bringToHost() const {
+    forImages(what, [](const auto& image) { image.readOnHost(); });
+  }
+};
+template <class T>
+struct Changes {
+  T& what;
+  void bringToHost() const {
+    forImages(what, [](auto& image) { image.changeOnHost(); });
+  }
+};
+template <class T>
+struct Writes {
+  T& what;
+  void bringToHost() const {
+    forImages(what, [](auto& image) { image.writeOnHost(); });
+  }
+};
+template <class T>
+Reads(const T&) -> Reads<T>;
+template <class T>
+Changes(T&) -> Changes<T>;
+template <class T>
+Writes(T&) -> Writes<T>;
+
+/// The same on a device. They throw DeviceError.
+class Access {
+ public:
+  explicit Access(Device& device) : device_(device) {}
+
+  [[nodiscard]] BitView read(const BitMask& mask) const {
+    return {mask.words().readOn(device_), mask.size()};
+  }
+  [[nodiscard]] BitTarget change(BitMask& mask) const {
+    return {mask.words().changeOn(device_), mask.size()};
+  }
+  /// Takes the size first.
+  [[nodiscard]] BitTarget write(BitMask& mask, Size size) const {
+    mask.resize(size);
+    return {mask.words().writeOn(device_), size};
+  }
+
+  [[nodiscard]] Planes read(const Picture& picture) const {
+    const Picture::Planes planes = picture.readOn(device_);
+    return {{planes.green, planes.red, planes.blue}, picture.isGrey() ? 1 : 3};
+  }
+  [[nodiscard]] Planes read(const rg::background::SmoothPicture& picture) const {
+    return read(picture.planes, picture.channels);
+  }
+  [[nodiscard]] PlaneTargets write(rg::background::SmoothPicture& picture, Size size,
+                                   int channels) const {
+    picture.channels = channels;
+    return write(picture.planes, size, channels);
+  }
+  [[nodiscard]] Planes read(const rg::background::ShownModel& planes, int channels) const {
+    Planes views{{}, channels};
+    for (int c = 0; c < channels; ++c) views.planes[c] = planes[at(c)].readOn(device_);
+    return views;
+  }
+  [[nodiscard]] PlaneTargets write(rg::background::ShownModel& planes, Size size,
+                                   int channels) const {
+    PlaneTargets views{{}, channels};
+    for (int c = 0; c < channels; ++c) {
+      planes[at(c)].resize(size);
+      views.planes[c] = planes[at(c)].writeOn(device_);
+    }
+    return views;
+  }
+
+  /// For kernels that only read it.
+  [[nodiscard]] background::ModelView read(const rg::background::ConsensusBackground& model) const {
+    return {model.noise.size(), model.channels, readOnly(model.samples), readOnly(model.noise),
+            readOnly(model.unrest)};
+  }
+  [[nodiscard]] background::ModelView change(rg::background::ConsensusBackground& model) const {
+    return {model.noise.size(), model.channels, model.samples.changeOn(device_),
+            model.noise.changeOn(device_), model.unrest.changeOn(device_)};
+  }
+  [[nodiscard]] background::ModelView write(rg::background::ConsensusBackground& model) const {
+    return {model.noise.size(), model.channels, model.samples.writeOn(device_),
+            model.noise.writeOn(device_), model.unrest.writeOn(device_)};
+  }
+
+ private:
+  static size_t at(int channel) { return static_cast<size_t>(channel); }
+  [[nodiscard]] ImageView<uint8_t> readOnly(const Image<uint8_t>& image) const {
+    const ImageView<const uint8_t> view = image.readOn(device_);
+    return {const_cast<uint8_t*>(view.data), view.size, view.strideBytes};
+  }
+
+  Device& device_;
+};
+
+}  // namespace rg::gpu

@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "kernels/backend/background_operations.hpp"
+
+#include "kernels/backend/dispatcher.hpp"
+#include "kernels/bit_mask.hpp"
+#include "kernels/cast_shadows.hpp"
+#include "kernels/mask_cleaning.hpp"
+#include "kernels/shadow.hpp"
+
+namespace rg::gpu::background {
+namespace {
+
+using rg::background::ConsensusBackground;
+using rg::background::ConsensusRate;
+using rg::background::FaintEvidence;
+using rg::background::JudgedPicture;
+using rg::background::LevelMaps;
+using rg::background::PublishedMasks;
+using rg::background::ShownModel;
+using rg::background::SmoothPicture;
+using rg::background::StillPixels;
+using rg::background::Tolerance;
+using rg::background::Verdicts;
+using Cpu = rg::background::Operations;
+
+class GpuOperations final : public Cpu, private Dispatcher {
+ public:
+  GpuOperations(GpuDevice& device, const Executor& executor) : Cpu(executor), Dispatcher(device) {}
+
+  void smooth(const Picture& picture, SmoothPicture& out) override {
+    run([&] { smoothOnDevice(picture, out); }, [&] { Cpu::smooth(picture, out); }, Writes{out});
+  }
+  void smoothAndJudge(const Picture& picture, const ConsensusBackground& model,
+                      const Tolerance& tolerance, const JudgedPicture& out) override {
+    run(
+        [&] {
+          smoothOnDevice(picture, out.picture);
+          judgeOnDevice(out.picture, model, tolerance, out.verdicts);
+        },
+        [&] { Cpu::smoothAndJudge(picture, model, tolerance, out); }, Reads{model},
+        Writes{out.picture}, Writes{out.verdicts});
+  }
+  void judge(const SmoothPicture& picture, const ConsensusBackground& model,
+             const Tolerance& tolerance, Verdicts& out) override {
+    run([&] { judgeOnDevice(picture, model, tolerance, out); },
+        [&] { Cpu::judge(picture, model, tolerance, out); }, Reads{picture}, Reads{model},
+        Writes{out});
+  }
+  void fillFrom(const SmoothPicture& picture, ConsensusBackground& model) override {
+    model.channels = picture.channels;
+    run([&] { background::fillFrom(on().read(picture), on().write(model), stream()); },
+        [&] { Cpu::fillFrom(picture, model); }, Reads{picture}, Writes{model});
+  }
+  void learn(const SmoothPicture& picture, const rg::background::LearntFrame& seen,
+             const ConsensusRate& rate, ConsensusBackground& model) override {
+    run(
+        [&] {
+          const LearntFrame masks{on().read(seen.foreground), on().read(seen.near),
+                                  on().read(seen.raw), on().read(seen.previousRaw)};
+          background::learn(on().read(picture), masks, rate, on().change(model), stream());
+        },
+        [&] { Cpu::learn(picture, seen, rate, model); }, Reads{picture}, Reads{seen.foreground},
+        Reads{seen.near}, Reads{seen.raw}, Reads{seen.previousRaw}, Changes{model});
+  }
+  void replaceWhere(const BitMask& places, const SmoothPicture& picture,
+                    ConsensusBackground& model) override {
+    run(
+        [&] {
+          background::replaceWhere(on().read(places), on().read(picture), on().change(model),
+                                   stream());
+        },
+        [&] { Cpu::replaceWhere(places, picture, model); }, Reads{places}, Reads{picture},
+        Changes{model});
+  }
+  void paintModel(const ConsensusBackground& model, ShownModel& out) override {
+    run(
+        [&] {
+          background::paintModel(on().read(model),
+                                 on().write(out, model.noise.size(), model.channels), stream());
+        },
+        [&] { Cpu::paintModel(model, out); }, Reads{model}, Writes{out});
+  }
+  void paintModelAt(const BitMask& places, const ConsensusBackground& model,
+                    ShownModel& out) override {
+    run(
+        [&] {
+          background::paintModelAt(on().read(places), on().read(model),
+                                   on().write(out, places.size(), model.channels), stream());
+        },
+        [&] { Cpu::paintModelAt(places, model, out); }, Reads{places}, Reads{model}, Writes{out});
+  }
+
+  uint32_t countSet(const BitMask& mask) override {
+    return onHost([&] { return Cpu::countSet(mask); }, Reads{mask});
+  }
+  bool isDarkerThan(const SmoothPicture& picture, int level) override {
+    return onHost([&] { return Cpu::isDarkerThan(picture, level); }, Reads{picture});
+  }
+  bool isEverywhere(const BitMask& mask) override {
+    return onHost([&] { return Cpu::isEverywhere(mask); }, Reads{mask});
+  }
+  bool hasSwitchedColour(const SmoothPicture& picture, const ConsensusBackground& model) override {
+    return onHost([&] { return Cpu::hasSwitchedColour(picture, model); }, Reads{picture},
+                  Reads{model});
+  }
+  Point findShift(const SmoothPicture& picture, const ConsensusBackground& model) override {
+    return onHost([&] { return Cpu::findShift(picture, model); }, Reads{picture}, Reads{model});
+  }
+  void shiftPicture(Point shift, SmoothPicture& spare, SmoothPicture& picture) override {
+    onHost([&] { Cpu::shiftPicture(shift, spare, picture); }, Writes{spare}, Changes{picture});
+  }
+  LevelMaps matchLight(const ShownModel& shown, const SmoothPicture& picture) override {
+    return onHost([&] { return Cpu::matchLight(shown, picture); }, Reads{shown}, Reads{picture});
+  }
+  uint32_t countApart(const ShownModel& shown, const SmoothPicture& picture, const LevelMaps& maps,
+                      const ConsensusBackground& model, const Tolerance& tolerance) override {
+    return onHost([&] { return Cpu::countApart(shown, picture, maps, model, tolerance); },
+                  Reads{shown}, Reads{picture}, Reads{model});
+  }
+  void relight(const LevelMaps& maps, ConsensusBackground& model) override {
+    onHost([&] { Cpu::relight(maps, model); }, Changes{model});
+  }
+
+  void keepMajority(const BitMask& mask, int radius, int share, BitMask& out) override {
+    run(
+        [&] {
+          background::keepMajority(on().read(mask), radius, share, on().write(out, mask.size()),
+                                   stream());
+        },
+        [&] { Cpu::keepMajority(mask, radius, share, out); }, Reads{mask}, Writes{out});
+  }
+  void keepSupported(BitMask& mask, const BitMask& strong, uint32_t leastPx) override {
+    run(
+        [&] {
+          const ComponentsView found = components(mask.size());
+          const BitView support = on().read(strong);
+          background::keepSupported(on().change(mask), support, leastPx, found, stream());
+        },
+        [&] { Cpu::keepSupported(mask, strong, leastPx); }, Changes{mask}, Reads{strong});
+  }
+  void fillHoles(BitMask& mask, uint32_t mostPx) override {
+    run(
+        [&] {
+          const ComponentsView found = components(mask.size());
+          background::fillHoles(on().change(mask), mostPx, found, stream());
+        },
+        [&] { Cpu::fillHoles(mask, mostPx); }, Changes{mask});
+  }
+  void dropSmallParts(BitMask& mask, uint32_t leastPx) override {
+    run(
+        [&] {
+          const ComponentsView found = components(mask.size());
+          background::dropSmallParts(on().change(mask), leastPx, found, stream());
+        },
+        [&] { Cpu::dropSmallParts(mask, leastPx); }, Changes{mask});
+  }
+  void fillUnedged(const SmoothPicture& picture, int mostStep, uint32_t mostPx,
+                   BitMask& mask) override {
+    onHost([&] { Cpu::fillUnedged(picture, mostStep, mostPx, mask); }, Reads{picture.planes[0]},
+           Changes{mask});
+  }
+  void growFaint(const FaintEvidence& evidence, BitMask& mask) override {
+    onHost([&] { Cpu::growFaint(evidence, mask); }, Reads{evidence.picture}, Reads{evidence.model},
+           Reads{evidence.faint}, Writes{evidence.shown}, Changes{mask});
+  }
+  void trimBorder(const Picture& picture, const SmoothPicture& smoothed,
+                  const ConsensusBackground& model, const Tolerance& tolerance,
+                  BitMask& mask) override {
+    onHost([&] { Cpu::trimBorder(picture, smoothed, model, tolerance, mask); }, Reads{smoothed},
+           Reads{model.noise}, Reads{model.unrest}, Changes{mask});
+  }
+  void thicken(const BitMask& mask, int margin, BitMask& out) override {
+    run([&] { rg::gpu::thicken(on().read(mask), margin, on().write(out, mask.size()), stream()); },
+        [&] { Cpu::thicken(mask, margin, out); }, Reads{mask}, Writes{out});
+  }
+  void remove(const BitMask& b, BitMask& a) override {
+    run([&] { rg::gpu::remove(on().read(b), on().change(a), stream()); },
+        [&] { Cpu::remove(b, a); }, Reads{b}, Changes{a});
+  }
+  void keepOnly(const BitMask& b, BitMask& a) override {
+    run([&] { rg::gpu::keepOnly(on().read(b), on().change(a), stream()); },
+        [&] { Cpu::keepOnly(b, a); }, Reads{b}, Changes{a});
+  }
+
+  void followStill(const SmoothPicture& picture, const ConsensusBackground& model,
+                   const Tolerance& tolerance, const BitMask& foreground, uint16_t mostAge,
+                   StillPixels& still) override {
+    onHost([&] { Cpu::followStill(picture, model, tolerance, foreground, mostAge, still); },
+           Reads{picture}, Reads{model.noise}, Reads{model.unrest}, Reads{foreground},
+           Changes{still});
+  }
+  void findGhosts(const SmoothPicture& picture, const ConsensusBackground& model,
+                  const BitMask& foreground, StillPixels& still, int leastAge,
+                  BitMask& ghosts) override {
+    onHost([&] { Cpu::findGhosts(picture, model, foreground, still, leastAge, ghosts); },
+           Reads{picture}, Reads{model}, Reads{foreground}, Changes{still}, Writes{ghosts});
+  }
+  void addAged(const BitMask& foreground, const StillPixels& still, int64_t leastAge,
+               BitMask& ghosts) override {
+    onHost([&] { Cpu::addAged(foreground, still, leastAge, ghosts); }, Reads{foreground},
+           Reads{still}, Changes{ghosts});
+  }
+  void addDisplaced(const SmoothPicture& picture, const ConsensusBackground& model,
+                    const BitMask& foreground, const StillPixels& still, int64_t leastAge,
+                    BitMask& moved) override {
+    onHost([&] { Cpu::addDisplaced(picture, model, foreground, still, leastAge, moved); },
+           Reads{picture}, Reads{model}, Reads{foreground}, Reads{still}, Changes{moved});
+  }
+
+  void findShadows(const SmoothPicture& picture, const ShownModel& shown, const BitMask& mask,
+                   BitMask& shadow) override {
+    run([&] { findShadowsOnDevice(picture, shown, mask, shadow); },
+        [&] { Cpu::findShadows(picture, shown, mask, shadow); }, Reads{picture}, Reads{shown},
+        Reads{mask}, Writes{shadow});
+  }
+  void keepCastShadows(const BitMask& mask, BitMask& dark) override {
+    run([&] { keepCastShadowsOnDevice(mask, dark); }, [&] { Cpu::keepCastShadows(mask, dark); },
+        Reads{mask}, Changes{dark});
+  }
+  void publish(const PublishedMasks& masks, Image<uint8_t>& out) override {
+    onHost([&] { Cpu::publish(masks, out); }, Reads{masks.foreground}, Reads{masks.shadow},
+           Writes{out});
+  }
+
+ private:
+  void smoothOnDevice(const Picture& picture, SmoothPicture& out) {
+    const Planes from = on().read(picture);
+    background::smooth(from, on().write(out, from.size(), from.channels), stream());
+  }
+  void judgeOnDevice(const SmoothPicture& picture, const ConsensusBackground& model,
+                     const Tolerance& tolerance, Verdicts& out) {
+    const Size size = picture.size();
+    const VerdictTargets verdicts{on().write(out.raw, size), on().write(out.strong, size),
+                                  on().write(out.faint, size)};
+    background::judge(on().read(picture), on().read(model), tolerance, verdicts, stream());
+  }
+  void findShadowsOnDevice(const SmoothPicture& picture, const ShownModel& shown,
+                           const BitMask& mask, BitMask& shadow) {
+    const auto planes = [](const Planes& from) {
+      const bool isGrey = from.channels == 1;
+      return rg::background::ColourPlanes{from.planes[isGrey ? 0 : 1], from.planes[0],
+                                          from.planes[isGrey ? 0 : 2]};
+    };
+    background::findShadows(planes(on().read(picture)), planes(on().read(shown, picture.channels)),
+                            on().read(mask), on().write(shadow, mask.size()), stream());
+  }
+  /// It drops parts twice, so it works on a copy.
+  void keepCastShadowsOnDevice(const BitMask& mask, BitMask& dark) {
+    const int64_t runs = mostRuns(mask.size());
+    const CastShadowView view{components(mask.size()),
+                              scratch().take<rg::background::DarkPart>(runs),
+                              scratch().take<uint32_t>(runs)};
+    const BitTarget copied = copyOf(on().read(dark));
+    background::keepCastShadows(on().read(mask), copied, view, stream());
+    copy(copied, on().change(dark));
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<rg::background::Operations> makeOperations(GpuDevice& device,
+                                                           const Executor& executor) {
+  return std::make_unique<GpuOperations>(device, executor);
+}
+
+}  // namespace rg::gpu::background

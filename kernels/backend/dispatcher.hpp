@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Where an operation runs: on the device where there is a kernel, else on the CPU, with what it
+// needs brought there.
+//
+// A kernel that changes something in place is the last of its operation's calls that can fail: so
+// the CPU finds what the operation found.
+#pragma once
+
+#include "kernels/backend/access.hpp"
+#include "kernels/backend/gpu_device.hpp"
+#include "kernels/components.hpp"
+
+#include <cstddef>
+#include <type_traits>
+
+namespace rg::gpu {
+
+class Dispatcher {
+ public:
+  explicit Dispatcher(GpuDevice& device) : device_(device), access_(device) {}
+
+  /// onCpu where the device has failed, or fails at this. Accesses are what onCpu does with images.
+  /// Throws DeviceError when the device is lost, with what was on it.
+  template <class OnDevice, class OnCpu, class... Accesses>
+  void run(const OnDevice& onDevice, const OnCpu& onCpu, const Accesses&... accesses) {
+    const auto attempt = [&] {
+      device_.lane()->enter();
+      device_.scratch().begin();
+      onDevice();
+    };
+    if (!device_.isUp() || !tryTo(attempt)) onHost(onCpu, accesses...);
+  }
+  /// For what has no kernel. A copy that fails is tried once more: what it was to bring is nowhere
+  /// else.
+  template <class OnCpu, class... Accesses>
+  std::invoke_result_t<const OnCpu&> onHost(const OnCpu& onCpu, const Accesses&... accesses) {
+    if (!tryTo([&] { (accesses.bringToHost(), ...); }) &&
+        !tryTo([&] { (accesses.bringToHost(), ...); }))
+      throw DeviceError(DeviceError::Kind::Lost, device_.error()->what());
+    return onCpu();
+  }
+
+  [[nodiscard]] const Access& on() const { return access_; }
+  [[nodiscard]] Scratch& scratch() const { return device_.scratch(); }
+  [[nodiscard]] Stream stream() const { return device_.lane()->stream(); }
+  [[nodiscard]] ComponentsView components(Size size) const;
+  /// In scratch.
+  [[nodiscard]] BitTarget copyOf(const BitView& mask) const;
+  void copy(const BitView& from, const BitTarget& to) const;
+
+ private:
+  template <class Call>
+  bool tryTo(const Call& call) {
+    try {
+      call();
+      return true;
+    } catch (const DeviceError& error) {
+      device_.fail(error);
+      if (error.isLost()) throw;
+      return false;
+    }
+  }
+
+  GpuDevice& device_;
+  Access access_;
+};
+
+}  // namespace rg::gpu

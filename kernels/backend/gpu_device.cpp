@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "kernels/backend/gpu_device.hpp"
+
+#include "kernels/backend/background_operations.hpp"
+#include "kernels/runtime.hpp"
+
+#include <utility>
+
+namespace rg::gpu {
+namespace {
+
+class GpuMemory final : public DeviceMemory {
+ public:
+  GpuMemory(std::shared_ptr<Lane> lane, size_t bytes)
+      : lane_(std::move(lane)), memory_(runtime::allocate(bytes, lane_->stream())) {}
+  ~GpuMemory() override { runtime::release(memory_, lane_->stream()); }
+  GpuMemory(const GpuMemory&) = delete;
+  GpuMemory& operator=(const GpuMemory&) = delete;
+
+  [[nodiscard]] void* data() const override { return memory_; }
+  void upload(const void* from, size_t bytes) override {
+    lane_->enter();
+    runtime::upload(memory_, from, bytes, lane_->stream());
+  }
+  void download(void* to, size_t bytes) override {
+    lane_->enter();
+    runtime::download(to, memory_, bytes, lane_->stream());
+  }
+
+ private:
+  std::shared_ptr<Lane> lane_;
+  void* memory_;
+};
+
+}  // namespace
+
+Lane::Lane(int device) : device_(device) {
+  enter();
+  stream_ = runtime::makeStream();
+}
+
+Lane::~Lane() {
+  runtime::endStream(stream_);
+}
+
+void Lane::enter() const {
+  runtime::choose(device_);
+}
+
+Scratch::~Scratch() {
+  for (const Block& block : blocks_)
+    if (block.memory != nullptr) runtime::release(block.memory, lane_->stream());
+}
+
+void* Scratch::takeBytes(size_t bytes) {
+  if (used_ == blocks_.size()) blocks_.push_back({nullptr, 0});
+  Block& block = blocks_[used_];
+  if (block.bytes < bytes) {
+    if (block.memory != nullptr) runtime::release(block.memory, lane_->stream());
+    block = {nullptr, 0};
+    block = {runtime::allocate(bytes, lane_->stream()), bytes};
+  }
+  ++used_;
+  return block.memory;
+}
+
+GpuDevice::GpuDevice(int device)
+    : name_(runtime::nameOf(device)), lane_(std::make_shared<Lane>(device)), scratch_(lane_) {}
+
+std::unique_ptr<DeviceMemory> GpuDevice::allocate(size_t bytes) {
+  lane_->enter();
+  return std::make_unique<GpuMemory>(lane_, bytes);
+}
+
+std::unique_ptr<rg::background::Operations> GpuDevice::backgroundOperations(
+    const Executor& executor) {
+  return background::makeOperations(*this, executor);
+}
+
+Result<std::shared_ptr<Device>> openDevice(int device) {
+  const int count = runtime::countDevices();
+  if (count == 0) return Error{"no CUDA device can be used: " + runtime::whyNone()};
+  if (device < 0 || device >= count)
+    return Error{"there is no CUDA device " + std::to_string(device) + "; device-id must be 0 to " +
+                 std::to_string(count - 1)};
+  try {
+    return std::shared_ptr<Device>(std::make_shared<GpuDevice>(device));
+  } catch (const DeviceError& error) {
+    return Error{"CUDA device " + std::to_string(device) + " can't be used: " + error.what()};
+  }
+}
+
+}  // namespace rg::gpu

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// A GPU as core's stages see it (core/base/memory/device.hpp): a stream of its own, memory, and the
+// rooms' operations.
+#pragma once
+
+#include "core/background/operations.hpp"
+#include "core/base/memory/device.hpp"
+#include "core/base/result.hpp"
+#include "kernels/launch.hpp"
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace rg::gpu {
+
+/// A stream of one device; what was made of it keeps it.
+class Lane {
+ public:
+  /// Throws DeviceError.
+  explicit Lane(int device);
+  ~Lane();
+  Lane(const Lane&) = delete;
+  Lane& operator=(const Lane&) = delete;
+  [[nodiscard]] Stream stream() const { return stream_; }
+  /// CUDA's calls go to the device that the calling thread has chosen last.
+  void enter() const;
+
+ private:
+  int device_;
+  Stream stream_;
+};
+
+/// Memory for the scratch of one operation at a time; what follows in the stream comes later and
+/// may use it again.
+class Scratch {
+ public:
+  explicit Scratch(std::shared_ptr<Lane> lane) : lane_(std::move(lane)) {}
+  ~Scratch();
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+
+  /// Another operation begins.
+  void begin() { used_ = 0; }
+  /// Contents undefined. Throws DeviceError.
+  template <class T>
+  [[nodiscard]] T* take(int64_t count) {
+    return static_cast<T*>(takeBytes(static_cast<size_t>(count) * sizeof(T)));
+  }
+
+ private:
+  struct Block {
+    void* memory;
+    size_t bytes;
+  };
+  void* takeBytes(size_t bytes);
+
+  std::shared_ptr<Lane> lane_;
+  std::vector<Block> blocks_;  ///< One for each that an operation takes.
+  size_t used_ = 0;
+};
+
+/// Serves one stage, on one thread at a time.
+class GpuDevice final : public Device, public rg::background::OperationsSource {
+ public:
+  /// Throws DeviceError.
+  explicit GpuDevice(int device);
+
+  [[nodiscard]] std::string name() const override { return name_; }
+  [[nodiscard]] std::unique_ptr<DeviceMemory> allocate(size_t bytes) override;
+  [[nodiscard]] std::unique_ptr<rg::background::Operations> backgroundOperations(
+      const Executor& executor) override;
+
+  [[nodiscard]] const std::shared_ptr<Lane>& lane() const { return lane_; }
+  [[nodiscard]] Scratch& scratch() { return scratch_; }
+
+ private:
+  std::string name_;
+  std::shared_ptr<Lane> lane_;
+  Scratch scratch_;
+};
+
+/// Number `device` of the machine's, or why it can't be used and what would help.
+[[nodiscard]] Result<std::shared_ptr<Device>> openDevice(int device);
+
+}  // namespace rg::gpu

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Whole stages with a device, which is the host here (kernels/shim): the same results, whichever of
+// its calls fails.
+#include "kernels/backend/gpu_device.hpp"
+#include "kernels/shim/block.hpp"
+#include "kernels/shim/faults.hpp"
+#include "tests/core/staged_scene.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+#include <vector>
+
+namespace rg::test {
+namespace {
+
+using background::Foreground;
+using background::SceneEvent;
+
+std::shared_ptr<Device> openHost() {
+  gpu::shim::begin({});
+  gpu::shim::plan(std::nullopt);
+  auto device = gpu::openDevice(0);
+  EXPECT_TRUE(device);
+  return *std::move(device);
+}
+
+void expectSame(const Foreground& a, const Foreground& b, int frame) {
+  SCOPED_TRACE("frame " + std::to_string(frame));
+  ASSERT_EQ(a.size, b.size);
+  ASSERT_EQ(a.status, b.status);
+  const bool isLost = a.scene.event == SceneEvent::ModelLost;
+  ASSERT_EQ(isLost ? SceneEvent::None : a.scene.event, b.scene.event);
+  ASSERT_EQ(a.scene.shift, b.scene.shift);
+  ASSERT_EQ(a.scene.isDark, b.scene.isDark);
+  for (int y = 0; y < a.size.height; ++y)
+    ASSERT_TRUE(std::equal(a.mask.row(y), a.mask.row(y) + a.size.width, b.mask.row(y)))
+        << "row " << y;
+  ASSERT_EQ(a.areas, b.areas);
+}
+
+const background::Params kQuick = [] {
+  background::Params params;
+  params.trainingFrames = 10;
+  params.absorbTimeS = 1;
+  return params;
+}();
+
+/// A walker that stops, light, a push, night: every decision of the method is taken.
+Take takeAt(int frame) {
+  Take take;
+  if (frame >= 2) take.walker = walkerAt(std::min(frame - 2, 40));
+  if (frame >= 30 && frame < 34) take.push = {3, 2};
+  if (frame >= 60) take.gainPercent = 160;
+  if (frame >= 75) take.gainPercent = frame < 80 ? 4 : 160;
+  take.isGrey = frame >= 90;
+  return take;
+}
+
+TEST(Backend, BackgroundIsTheSameOnADevice) {
+  for (const bool findsShadows : {true, false}) {
+    background::Params params = kQuick;
+    params.findsShadows = findsShadows;
+    const auto device = openHost();
+    StagedScene cpu({}, params), gpu({}, params, device);
+    std::vector<SceneEvent> seen;
+    for (int frame = 0; frame < 100 && !HasFatalFailure(); ++frame) {
+      const auto expected = cpu.show(takeAt(frame));
+      seen.push_back(expected->scene.event);
+      expectSame(*gpu.show(takeAt(frame)), *expected, frame);
+    }
+    EXPECT_TRUE(device->isUp());
+    EXPECT_TRUE(gpu::shim::findings().empty());
+    for (const SceneEvent event :
+         {SceneEvent::CameraShaken, SceneEvent::LightSwitched, SceneEvent::TooDark,
+          SceneEvent::BrightAgain, SceneEvent::ColourSwitched})
+      EXPECT_TRUE(std::count(seen.begin(), seen.end(), event)) << static_cast<int>(event);
+  }
+}
+
+/// A frame in which a walker is well in view, and how many are looked at behind one that failed.
+constexpr int kWalking = 5, kAfter = 3;
+
+/// Fails each call of a frame in turn, in a stream of its own each time, and compares that frame
+/// and those behind it.
+void failEachCall(int frame, DeviceError::Kind kind,
+                  const std::vector<std::shared_ptr<const Foreground>>& expected) {
+  const int64_t before = gpu::shim::countAllocations();
+  uint64_t call = 0;
+  for (bool hasFailed = true; hasFailed && !::testing::Test::HasFailure(); ++call) {
+    SCOPED_TRACE("call " + std::to_string(call));
+    const auto device = openHost();
+    StagedScene gpu({}, kQuick, device);
+    for (int i = 0; i < frame; ++i) (void)gpu.show(takeAt(i));
+    gpu::shim::plan(gpu::shim::Fault{call, kind});
+    const auto shown = gpu.show(takeAt(frame));
+    hasFailed = !device->isUp();
+    if (hasFailed) {
+      expectSame(*shown, *expected[static_cast<size_t>(frame)], frame);
+      EXPECT_EQ(shown->scene.event == SceneEvent::ModelLost, kind == DeviceError::Kind::Lost);
+      for (int i = frame + 1; i < frame + kAfter; ++i)
+        expectSame(*gpu.show(takeAt(i)), *expected[static_cast<size_t>(i)], i);
+    }
+  }
+  EXPECT_GT(call, 20u);
+  EXPECT_EQ(gpu::shim::countAllocations(), before);
+}
+
+TEST(Backend, AFailedCallChangesNoFrame) {
+  StagedScene cpu({}, kQuick);
+  std::vector<std::shared_ptr<const Foreground>> expected;
+  for (int i = 0; i < kWalking + kAfter; ++i) expected.push_back(cpu.show(takeAt(i)));
+  for (const int frame : {0, 1, kWalking}) failEachCall(frame, DeviceError::Kind::Failed, expected);
+}
+
+/// The frame is the first of a model that starts with it, and says so.
+TEST(Backend, ALostDeviceCostsTheModelOnly) {
+  StagedScene cpu({}, kQuick);
+  std::vector<std::shared_ptr<const Foreground>> expected;
+  for (int i = 0; i < kWalking + kAfter; ++i) {
+    if (i == kWalking) cpu.forget();
+    expected.push_back(cpu.show(takeAt(i)));
+  }
+  failEachCall(kWalking, DeviceError::Kind::Lost, expected);
+}
+
+}  // namespace
+}  // namespace rg::test
