@@ -5,6 +5,7 @@
 #include "core/base/components.hpp"
 #include "core/base/memory/pool.hpp"
 #include "core/base/renewed_stage.hpp"
+#include "core/base/row_spans.hpp"
 
 #include <optional>
 #include <string>
@@ -12,14 +13,6 @@
 
 namespace rg::background {
 namespace {
-
-void clearOutside(ImageView<const uint8_t> interest, ImageView<uint8_t> mask) {
-  for (int y = 0; y < mask.height(); ++y) {
-    const uint8_t* isInside = interest.row(y);
-    uint8_t* row = mask.row(y);
-    for (int x = 0; x < mask.width(); ++x) row[x] = row[x] & isInside[x];
-  }
-}
 
 class BackgroundStage final : public Stage {
  public:
@@ -103,7 +96,7 @@ Result<std::shared_ptr<const Foreground>> BackgroundStage::process(
   out->interest = params.interest;
   const Box& extent = out->extent;
   const ImageView<uint8_t> mask = out->mask.view().crop(extent);
-  if (out->interest) clearOutside(out->interest->view().crop(extent), mask);
+  if (out->interest) keepInside(out->interest->view().crop(extent), mask);
   if (std::exchange(hasLostModel_, false)) out->scene.event = SceneEvent::ModelLost;
   findComponents(mask, kForegroundPixel, Connectivity::Eight, parts_);
   out->areas.clear();

@@ -241,7 +241,7 @@ void ConsensusMethod::segment(const MethodJob& job, Foreground& out) {
   dissolveGhosts(job);
   learnFrame(job);
   findShadow(job);
-  job.on.publish({mask_, shadow_, shift_}, out.mask);
+  job.on.paintForeground(mask_, shadow_, shift_, out.mask);
 }
 
 }  // namespace

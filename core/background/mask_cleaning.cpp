@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/background/mask_cleaning.hpp"
 
+#include "core/background/background.hpp"
 #include "core/simd/background/majority_rows.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cstdlib>
+#include <cstring>
 
 namespace rg::background {
 namespace {
@@ -90,6 +93,27 @@ void keepSupported(BitMask& mask, const BitMask& strong, uint32_t leastPx,
   for (size_t i = 0; i < found.list.size(); ++i)
     scratch.isChosen[i] = found.list[i].areaPx < leastPx;
   paintComponents(found, scratch.isChosen, false, mask);
+}
+
+void paintForeground(const BitMask& mask, const BitMask& shadow, Point shift,
+                     const Executor& executor, ImageView<uint8_t> out) {
+  const int width = out.width(), height = out.height();
+  const int from = std::max(0, shift.x), to = std::max(0, -shift.x);
+  const int count = std::max(0, width - std::abs(shift.x));
+  executor.forRows(height, [&](int first, int last) {
+    for (int y = first; y < last; ++y) {
+      std::fill_n(out.row(y), width, kBackgroundPixel);
+      const int row = y + shift.y;
+      if (row < 0 || row >= height) continue;
+      paintRow(mask, row, kForegroundPixel, out.row(y));
+      paintRow(shadow, row, kShadowPixel, out.row(y));
+      if (from != to) {
+        std::memmove(out.row(y) + to, out.row(y) + from, static_cast<size_t>(count));
+        std::fill(out.row(y), out.row(y) + to, kBackgroundPixel);
+        std::fill(out.row(y) + to + count, out.row(y) + width, kBackgroundPixel);
+      }
+    }
+  });
 }
 
 void fillLines(ImageView<const uint8_t> edges, const Box& box, CleaningScratch& scratch,

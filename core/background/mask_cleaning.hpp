@@ -42,6 +42,11 @@ void fillHoles(BitMask& mask, uint32_t mostPx, CleaningScratch& scratch);
 void keepSupported(BitMask& mask, const BitMask& strong, uint32_t leastPx,
                    CleaningScratch& scratch);
 
+/// Writes kForegroundPixel and kShadowPixel where `mask` and `shadow` are set, else
+/// kBackgroundPixel: each pixel is that of the masks at `shift` from it, beyond them background.
+void paintForeground(const BitMask& mask, const BitMask& shadow, Point shift,
+                     const Executor& executor, ImageView<uint8_t> out);
+
 /// The paper's line segmentation inside `box`: a pixel is set in `out` where its row has an edge
 /// pixel on both sides of it (or at it) and its column too. Only sets pixels, never clears.
 void fillLines(ImageView<const uint8_t> edges, const Box& box, CleaningScratch& scratch,

@@ -4,10 +4,6 @@
 #include "core/background/scene_watch.hpp"
 #include "core/background/shadows/shadow.hpp"
 
-#include <algorithm>
-#include <cstdlib>
-#include <cstring>
-
 namespace rg::background {
 
 void Operations::smooth(const Picture& picture, SmoothPicture& out) {
@@ -164,29 +160,9 @@ void Operations::keepCastShadows(const BitMask& mask, BitMask& dark) {
   background::keepCastShadows(mask, dark, castShadows_);
 }
 
-void Operations::publish(const PublishedMasks& masks, Image<uint8_t>& out) {
-  const int width = out.width(), height = out.height();
-  const Point shift = masks.shift;
-  const ImageView<uint8_t> to = out;
-  // Where the camera looks off the model, the mask goes back to the
-  // picture.
-  const int first = std::max(0, shift.x), moved = std::max(0, -shift.x);
-  const int count = std::max(0, width - std::abs(shift.x));
-  executor_.forRows(height, [&](int begin, int end) {
-    for (int y = begin; y < end; ++y) {
-      uint8_t* row = to.row(y);
-      std::fill_n(row, width, kBackgroundPixel);
-      const int from = y + shift.y;
-      if (from < 0 || from >= height) continue;
-      paintRow(masks.foreground, from, kForegroundPixel, row);
-      paintRow(masks.shadow, from, kShadowPixel, row);
-      if (first != moved) {
-        std::memmove(row + moved, row + first, static_cast<size_t>(count));
-        std::fill(row, row + moved, kBackgroundPixel);
-        std::fill(row + moved + count, row + width, kBackgroundPixel);
-      }
-    }
-  });
+void Operations::paintForeground(const BitMask& mask, const BitMask& shadow, Point shift,
+                                 Image<uint8_t>& out) {
+  background::paintForeground(mask, shadow, shift, executor_, out);
 }
 
 std::unique_ptr<Operations> makeOperations(const Context& context) {

@@ -25,12 +25,6 @@ namespace rg::background {
 /// The planes of a model that is shown as a picture.
 using ShownModel = std::array<Image<uint8_t>, 3>;
 
-/// A frame's masks as they are published.
-struct PublishedMasks {
-  const BitMask &foreground, &shadow;
-  Point shift;  ///< The camera's: the masks go back to where the picture shows them.
-};
-
 /// Each does what the function of its name does; this class does it on the CPU.
 class Operations {
  public:
@@ -99,8 +93,8 @@ class Operations {
   virtual void findShadows(const SmoothPicture& picture, const ShownModel& shown,
                            const BitMask& mask, BitMask& shadow);
   virtual void keepCastShadows(const BitMask& mask, BitMask& dark);
-  /// Writes the mask of a frame (background.hpp).
-  virtual void publish(const PublishedMasks& masks, Image<uint8_t>& out);
+  virtual void paintForeground(const BitMask& mask, const BitMask& shadow, Point shift,
+                               Image<uint8_t>& out);
 
  protected:
   [[nodiscard]] const Executor& executor() const { return executor_; }

@@ -1,30 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/base/mask_gaps.hpp"
 
-#include "core/base/pixel.hpp"
-
 #include <algorithm>
-#include <bit>
 
 namespace rg {
 namespace {
-
-/// Where the border is read: how far out, and from which step on it is an edge.
-struct EdgeTest {
-  ImageView<const uint8_t> picture;
-  int reach, mostStep;
-};
-
-void addStep(const EdgeTest& test, Point p, Point direction, GapContour& contour) {
-  const ImageView<const uint8_t> picture = test.picture;
-  const Point outside{p.x + test.reach * direction.x, p.y + test.reach * direction.y};
-  const Point inside{p.x - 2 * direction.x, p.y - 2 * direction.y};
-  const Box bounds = boundsOf(picture.size);
-  if (!bounds.contains(outside) || !bounds.contains(inside)) return;
-  contour.edgePixels +=
-      absDiff(picture.at(inside.x, inside.y), picture.at(outside.x, outside.y)) > test.mostStep;
-  ++contour.pixels;
-}
 
 void readRun(const EdgeTest& test, const BitMask& thick, const ComponentRun& run,
              GapContour& contour) {
@@ -41,16 +21,11 @@ void readRun(const EdgeTest& test, const BitMask& thick, const ComponentRun& run
   }
 }
 
-bool isGap(const Component& part, const GapContour& contour, uint32_t mostPx) {
-  return part.areaPx <= mostPx && std::popcount(static_cast<unsigned>(contour.frameSides)) <= 1 &&
-         contour.pixels > 0 && 4 * contour.edgePixels <= contour.pixels;
-}
-
 }  // namespace
 
 bool fillUnedged(ImageView<const uint8_t> picture, int mostStep, uint32_t mostPx,
                  const Executor& executor, GapScratch& scratch, BitMask& mask) {
-  const int margin = std::clamp(mask.height() / 40, 1, 4);
+  const int margin = gapMargin(mask.size());
   thicken(mask, margin, executor, scratch.across, scratch.thick);
   findComponents(scratch.thick, false, Connectivity::Four, scratch.parts);
   const std::vector<Component>& list = scratch.parts.list;
@@ -61,7 +36,7 @@ bool fillUnedged(ImageView<const uint8_t> picture, int mostStep, uint32_t mostPx
   scratch.isChosen.resize(list.size());
   bool isAny = false;
   for (size_t i = 0; i < list.size(); ++i) {
-    scratch.isChosen[i] = isGap(list[i], scratch.contours[i], mostPx);
+    scratch.isChosen[i] = isGap(list[i].areaPx, scratch.contours[i], mostPx);
     isAny = isAny || scratch.isChosen[i] != 0;
   }
   if (!isAny) return false;

@@ -9,7 +9,9 @@
 #include "core/base/components.hpp"
 #include "core/base/memory/executor.hpp"
 #include "core/base/memory/image.hpp"
+#include "core/base/pixel.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -24,8 +26,37 @@ inline constexpr int kMostGapStep = 14;  ///< Grey levels across a border that i
 struct GapContour {
   uint32_t edgePixels = 0;  ///< Where the picture has an edge across the border.
   uint32_t pixels = 0;
-  int frameSides = 0;  ///< Bits: left, top, right, bottom.
+  unsigned frameSides = 0;  ///< Bits: left, top, right, bottom.
 };
+
+/// Where the border is read: how far out, and from which step on it is an edge.
+struct EdgeTest {
+  ImageView<const uint8_t> picture;
+  int reach, mostStep;
+};
+
+/// One side of a pixel of the border.
+constexpr void addStep(const EdgeTest& test, Point p, Point direction, GapContour& contour) {
+  const ImageView<const uint8_t> picture = test.picture;
+  const Point outside{p.x + test.reach * direction.x, p.y + test.reach * direction.y};
+  const Point inside{p.x - 2 * direction.x, p.y - 2 * direction.y};
+  const Box bounds = boundsOf(picture.size);
+  if (!bounds.contains(outside) || !bounds.contains(inside)) return;
+  contour.edgePixels +=
+      absDiff(picture.at(inside.x, inside.y), picture.at(outside.x, outside.y)) > test.mostStep;
+  ++contour.pixels;
+}
+
+/// Whether an unset part with this contour is a gap.
+[[nodiscard]] constexpr bool isGap(uint32_t areaPx, const GapContour& contour, uint32_t mostPx) {
+  return areaPx <= mostPx && (contour.frameSides & (contour.frameSides - 1)) == 0 &&
+         contour.pixels > 0 && 4 * contour.edgePixels <= contour.pixels;
+}
+
+/// How far a mask is grown, so that cracks don't open a gap.
+[[nodiscard]] constexpr int gapMargin(Size frame) {
+  return std::clamp(frame.height / 40, 1, 4);
+}
 
 struct GapScratch {
   BitMask across, thick;  ///< The mask grown by a few pixels, so that cracks don't open a gap.

@@ -5,6 +5,14 @@
 
 namespace rg {
 
+void keepInside(ImageView<const uint8_t> interest, ImageView<uint8_t> scope) {
+  for (int y = 0; y < scope.height(); ++y) {
+    const uint8_t* isInside = interest.row(y);
+    uint8_t* row = scope.row(y);
+    for (int x = 0; x < scope.width(); ++x) row[x] = row[x] & isInside[x];
+  }
+}
+
 void RowSpans::find(Size size, ImageView<const uint8_t> scope, const Executor& executor) {
   size_ = size;
   spans_.assign(static_cast<size_t>(size.height), Span{0, size.width});

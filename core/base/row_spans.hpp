@@ -20,6 +20,9 @@ inline constexpr uint8_t kInScopeApart = 254;
   return value >= kInScopeApart;
 }
 
+/// Takes out of scope what is outside of the interest: its values are 255 inside, else 0.
+void keepInside(ImageView<const uint8_t> interest, ImageView<uint8_t> scope);
+
 /// Of each row, the columns outside which no pixel is in scope.
 class RowSpans {
  public:

@@ -72,14 +72,6 @@ Result<std::shared_ptr<const Labels>> skipped(Pool<Labels>& pool, Scope scope, S
   return std::shared_ptr<const Labels>(labels);
 }
 
-void keepInside(const Image<uint8_t>& interest, Image<uint8_t>& scope) {
-  for (int y = 0; y < scope.height(); ++y) {
-    const uint8_t* isInside = interest.row(y);
-    uint8_t* row = scope.row(y);
-    for (int x = 0; x < scope.width(); ++x) row[x] = row[x] & isInside[x];
-  }
-}
-
 class CpuSegmentation : public Stage {
  public:
   explicit CpuSegmentation(Context context) : context_(std::move(context)) {}

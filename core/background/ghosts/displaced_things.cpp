@@ -2,24 +2,12 @@
 #include "core/background/ghosts/displaced_things.hpp"
 
 #include <algorithm>
-#include <array>
 
 namespace rg::background {
 namespace {
 
-constexpr int kMostParts = 16;    ///< Each costs a pass over all runs.
-constexpr int kLeastChroma = 32;  ///< Grey levels between the largest and the smallest channel.
-constexpr int kBits = 4;          ///< Of each channel that tell colours apart.
-constexpr size_t kColours = size_t{1} << 3 * kBits;
-
-using Colour = std::array<int, 3>;
-
-void count(const Colour& colour, std::vector<uint32_t>& histogram) {
-  const auto [least, most] = std::minmax({colour[0], colour[1], colour[2]});
-  if (most - least < kLeastChroma) return;
-  size_t bin = 0;
-  for (const int level : colour) bin = bin << kBits | static_cast<size_t>(level >> (8 - kBits));
-  ++histogram[bin];
+void count(int colour, std::vector<uint32_t>& histogram) {
+  if (colour >= 0) ++histogram[static_cast<size_t>(colour)];
 }
 
 void chooseStill(const BitMask& foreground, const StillPixels& still, int64_t leastAge,
@@ -29,11 +17,10 @@ void chooseStill(const BitMask& foreground, const StillPixels& still, int64_t le
   for (const ComponentRun& run : scratch.parts.runs)
     for (int x = run.begin; x < run.end; ++x)
       scratch.stillPx[run.component] += still.ages.at(x, run.y) >= leastAge;
-  const auto leastPx = static_cast<uint32_t>(std::max<int64_t>(30, foreground.size().area() / 500));
   scratch.isChosen.assign(list.size(), 0);
-  int left = kMostParts;
+  int left = kMostDisplaced;
   for (size_t i = 0; i < list.size() && left > 0; ++i) {
-    if (list[i].areaPx < leastPx || 4 * scratch.stillPx[i] < 3 * list[i].areaPx) continue;
+    if (!isStillPart(scratch.stillPx[i], list[i].areaPx, foreground.size())) continue;
     scratch.isChosen[i] = 1;
     --left;
   }
@@ -47,17 +34,15 @@ uint32_t countShared(const SmoothPicture& picture, const ConsensusBackground& mo
   for (const ComponentRun& run : scratch.parts.runs) {
     if (run.component != part) continue;
     for (int x = run.begin; x < run.end; ++x) {
-      Colour now{}, then{};
-      for (size_t c = 0; c < now.size(); ++c) {
-        now[c] = picture.planes[c].at(x, run.y);
-        then[c] = model.sample({x, run.y}, 0, static_cast<int>(c));
-      }
-      count(now, scratch.after);
-      count(then, scratch.before);
+      const auto now = [&](size_t c) { return +picture.planes[c].at(x, run.y); };
+      const auto then = [&](int c) { return +model.sample({x, run.y}, 0, c); };
+      count(vividColour(now(0), now(1), now(2)), scratch.after);
+      count(vividColour(then(0), then(1), then(2)), scratch.before);
     }
   }
   uint32_t shared = 0;
-  for (size_t i = 0; i < kColours; ++i) shared += std::min(scratch.before[i], scratch.after[i]);
+  for (size_t i = 0; i < size_t{kColours}; ++i)
+    shared += std::min(scratch.before[i], scratch.after[i]);
   return shared;
 }
 
@@ -72,7 +57,7 @@ void addDisplaced(const SmoothPicture& picture, const ConsensusBackground& model
   for (size_t i = 0; i < scratch.isChosen.size(); ++i)
     if (scratch.isChosen[i] != 0) {
       const uint32_t shared = countShared(picture, model, i, scratch);
-      scratch.isChosen[i] = 8 * shared >= scratch.parts.list[i].areaPx;
+      scratch.isChosen[i] = isDisplaced(shared, scratch.parts.list[i].areaPx);
     }
   paintComponents(scratch.parts, scratch.isChosen, true, moved);
 }

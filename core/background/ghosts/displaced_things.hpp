@@ -9,10 +9,32 @@
 #include "core/background/models/consensus_background.hpp"
 #include "core/base/components.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
 namespace rg::background {
+
+inline constexpr int kMostDisplaced = 16;  ///< Each costs a pass over all runs.
+inline constexpr int kColourBits = 4;      ///< Of each channel that tell colours apart.
+inline constexpr int kColours = 1 << 3 * kColourBits;
+
+/// The number of a colour; below 0: it is too grey to tell anything.
+[[nodiscard]] constexpr int vividColour(int green, int red, int blue) {
+  constexpr int kLeastChroma = 32;  // Grey levels between the largest and the smallest channel.
+  const int most = std::max(std::max(green, red), blue);
+  const int least = std::min(std::min(green, red), blue);
+  if (most - least < kLeastChroma) return -1;
+  constexpr int kDropped = 8 - kColourBits;
+  return (green >> kDropped << kColourBits | red >> kDropped) << kColourBits | blue >> kDropped;
+}
+[[nodiscard]] constexpr bool isStillPart(uint32_t stillPx, uint32_t areaPx, Size frame) {
+  const auto leastPx = static_cast<uint32_t>(std::max(int64_t{30}, frame.area() / 500));
+  return areaPx >= leastPx && 4 * stillPx >= 3 * areaPx;
+}
+[[nodiscard]] constexpr bool isDisplaced(uint32_t sharedPx, uint32_t areaPx) {
+  return 8 * sharedPx >= areaPx;
+}
 
 struct DisplacedScratch {
   Components parts;

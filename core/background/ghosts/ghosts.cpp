@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/background/ghosts/ghosts.hpp"
 
-#include "core/base/pixel.hpp"
 #include "core/simd/background/still_rows.hpp"
 
 #include <algorithm>
@@ -9,12 +8,6 @@
 
 namespace rg::background {
 namespace {
-
-constexpr int64_t kLeastContour = 6;  ///< Contour pixels that a verdict needs.
-constexpr int64_t kLeastShare = 100;  ///< Of 256: share of the contour that must be readable.
-constexpr int64_t kLeastEdge = 12;    ///< Half grey levels by which the model's edge must lead.
-constexpr uint8_t kFreshFrames = 250;
-constexpr int kGhostSamples = 4;  ///< Remembered colours whose mean stands for the model.
 
 void fadeFresh(int y, StillPixels& still) {
   uint8_t& freshFrames = still.freshRows[static_cast<size_t>(y)];
@@ -72,23 +65,13 @@ class ContourReader {
     ++sums.allPixels;
     if (foreground_.at(beside.x, beside.y) || foreground_.at(outside.x, outside.y)) return;
     if (fresh_.at(outside.x, outside.y) != 0) return;
-    int inPicture = 0, inModel = 0;
-    for (int c = 0; c < picture_.channels; ++c) {
-      const ImageView<const uint8_t> plane = picture_.planes[static_cast<size_t>(c)];
-      inPicture = std::max(inPicture,
-                           absDiff(plane.at(inside.x, inside.y), plane.at(outside.x, outside.y)));
-      inModel = std::max(inModel, absDiff(modelled(inside, c), modelled(outside, c)));
-    }
-    sums.inPicture += inPicture;
-    sums.inModel += inModel;
+    sums.inPicture += edgeBetween(picture_.channels, inside, outside, [&](Point at, int channel) {
+      return +picture_.planes[static_cast<size_t>(channel)].at(at.x, at.y);
+    });
+    sums.inModel += edgeBetween(picture_.channels, inside, outside, [&](Point at, int channel) {
+      return modelledLevel([&](int sample) { return +model_.sample(at, sample, channel); });
+    });
     ++sums.readPixels;
-  }
-
-  int modelled(Point p, int channel) const {
-    int sum = 0;
-    for (int k = 0; k < kGhostSamples; ++k)
-      sum += model_.sample(p, k * kSamples / kGhostSamples, channel);
-    return sum / kGhostSamples;
   }
 
   const SmoothPicture& picture_;
@@ -103,11 +86,7 @@ uint32_t judgeParts(StillScratch& scratch) {
   scratch.isGhost.resize(parts.size());
   uint32_t pixels = 0;
   for (size_t i = 0; i < parts.size(); ++i) {
-    const ContourSums& sums = scratch.contours[i];
-    const bool isWitnessed =
-        sums.readPixels >= kLeastContour && sums.readPixels * 256 >= sums.allPixels * kLeastShare;
-    const bool isGhost =
-        isWitnessed && 2 * sums.inModel > 3 * sums.inPicture + kLeastEdge * sums.readPixels;
+    const bool isGhost = isGhostly(scratch.contours[i]);
     scratch.isGhost[i] = isGhost;
     if (isGhost) pixels += parts[i].areaPx;
   }
@@ -150,9 +129,9 @@ void followStill(const SmoothPicture& picture, const ConsensusBackground& model,
 }
 
 void addAged(const BitMask& foreground, const StillPixels& still, int64_t leastAge,
-             BitMask& ghosts) {
+             BitMask& places) {
   forSetPixels(foreground, 0, foreground.height(), [&](int x, int y) {
-    if (still.ages.at(x, y) >= leastAge) ghosts.set(x, y);
+    if (still.ages.at(x, y) >= leastAge) places.set(x, y);
   });
 }
 
@@ -162,9 +141,7 @@ uint32_t findGhosts(const SmoothPicture& picture, const ConsensusBackground& mod
   scratch.still.resize(foreground.size());
   scratch.still.clear();
   ghosts.clear();
-  forSetPixels(foreground, 0, foreground.height(), [&](int x, int y) {
-    if (still.ages.at(x, y) >= leastAge) scratch.still.set(x, y);
-  });
+  addAged(foreground, still, leastAge, scratch.still);
   findComponents(scratch.still, true, Connectivity::Eight, scratch.parts);
   scratch.contours.assign(scratch.parts.list.size(), {});
   ContourReader reader(picture, model, foreground, scratch, still.fresh);

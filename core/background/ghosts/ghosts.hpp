@@ -9,6 +9,7 @@
 #include "core/base/components.hpp"
 #include "core/base/memory/executor.hpp"
 #include "core/base/memory/image.hpp"
+#include "core/base/pixel.hpp"
 
 #include <algorithm>
 #include <array>
@@ -56,15 +57,32 @@ void followStill(const SmoothPicture& picture, const ConsensusBackground& model,
                  const Tolerance& tolerance, const BitMask& foreground, uint16_t mostAge,
                  const Executor& executor, StillPixels& still);
 
-/// Sets in `ghosts` what of `foreground` is at least so old.
-void addAged(const BitMask& foreground, const StillPixels& still, int64_t leastAge,
-             BitMask& ghosts);
-
 /// Of one part: edges across its contour, summed over the pixels where they could be read.
 struct ContourSums {
   int64_t inPicture = 0, inModel = 0;
   int64_t readPixels = 0, allPixels = 0;
 };
+
+/// The largest difference of a channel between two places; levelAt(place, channel).
+template <class LevelAt>
+[[nodiscard]] constexpr int edgeBetween(int channels, Point a, Point b, const LevelAt& levelAt) {
+  int most = 0;
+  for (int c = 0; c < channels; ++c) most = std::max(most, absDiff(levelAt(a, c), levelAt(b, c)));
+  return most;
+}
+
+/// Whether the contour of a still part is an edge in the model rather than in the picture.
+[[nodiscard]] constexpr bool isGhostly(const ContourSums& sums) {
+  constexpr int64_t kLeastContour = 6;  // Contour pixels that a verdict needs.
+  constexpr int64_t kLeastShare = 100;  // Of 256: share of the contour that must be readable.
+  constexpr int64_t kLeastEdge = 12;    // Half grey levels by which the model's edge must lead.
+  const bool isWitnessed =
+      sums.readPixels >= kLeastContour && sums.readPixels * 256 >= sums.allPixels * kLeastShare;
+  return isWitnessed && 2 * sums.inModel > 3 * sums.inPicture + kLeastEdge * sums.readPixels;
+}
+
+/// Frames for which a dissolved ghost's place is no witness.
+inline constexpr uint8_t kFreshFrames = 250;
 
 struct StillScratch {
   BitMask still;  ///< Foreground that is old enough.
@@ -72,6 +90,10 @@ struct StillScratch {
   std::vector<uint8_t> isGhost;
   std::vector<ContourSums> contours;
 };
+
+/// Sets in `places` the pixels of `foreground` that are at least `leastAge` old.
+void addAged(const BitMask& foreground, const StillPixels& still, int64_t leastAge,
+             BitMask& places);
 
 /// Sets `ghosts` on the 8-connected parts of still foreground, at least `leastAge` frames
 /// old, whose contour towards the background shows an edge in the model rather than in the

@@ -1,70 +1,19 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/background/ghosts/mask_contour.hpp"
 
-#include "core/base/pixel.hpp"
+#include "core/background/ghosts/drawn_border.hpp"
 
 #include <algorithm>
 
 namespace rg::background {
 namespace {
 
-constexpr int kReach = 6;      ///< Pixels from a sure part to its faint ones.
-constexpr int kMostTint = 14;  ///< Grey levels that a channel may be off the shadow's factor.
-constexpr int kLeastDepth = 4;
-constexpr int kSide = 3;  ///< Pixels from the border to what stands for a side.
-
-/// Could this pixel be the background in a weak shadow?
 bool isDimmed(const FaintEvidence& evidence, int x, int y) {
-  const int now = evidence.picture.planes[0].at(x, y), before = evidence.shown[0].at(x, y);
-  if (now >= before || 2 * now < before) return false;
-  for (size_t c = 1; c < static_cast<size_t>(evidence.picture.channels); ++c) {
-    const int off = evidence.picture.planes[c].at(x, y) * before - evidence.shown[c].at(x, y) * now;
-    if (absDiff(off, 0) > kMostTint * before) return false;
-  }
-  return true;
+  return background::isDimmed(
+      evidence.picture.channels,
+      [&](int c) { return +evidence.picture.planes[static_cast<size_t>(c)].at(x, y); },
+      [&](int c) { return +evidence.shown[static_cast<size_t>(c)].at(x, y); });
 }
-
-/// One border pixel of a mask and the direction that leads out of it.
-class BorderReader {
- public:
-  BorderReader(const Picture& picture, const BitMask& mask)
-      : planes_{picture.green(), picture.red(), picture.blue()},
-        channels_(picture.isGrey() ? 1 : 3),
-        mask_(mask),
-        bounds_(boundsOf(mask.size())) {}
-
-  [[nodiscard]] bool isDrawnIn(Point p, Point out, int radius) const {
-    const Point beside{p.x + out.x, p.y + out.y};
-    if (!bounds_.contains(beside) || mask_.at(beside.x, beside.y) || !isDeep(p, out)) return false;
-    const int toInside = difference(p, {p.x - kSide * out.x, p.y - kSide * out.y});
-    const int toOutside = difference(p, {p.x + kSide * out.x, p.y + kSide * out.y});
-    return toOutside < toInside && 2 * toInside > 3 * radius;
-  }
-
- private:
-  [[nodiscard]] bool isDeep(Point p, Point out) const {
-    for (int i = 1; i <= kLeastDepth; ++i) {
-      const Point q{p.x - i * out.x, p.y - i * out.y};
-      if (bounds_.contains(q) && !mask_.at(q.x, q.y)) return false;
-    }
-    return true;
-  }
-
-  /// Outside the frame its border is repeated.
-  [[nodiscard]] int difference(Point p, Point other) const {
-    const int x = std::clamp(other.x, 0, bounds_.width - 1);
-    const int y = std::clamp(other.y, 0, bounds_.height - 1);
-    int most = 0;
-    for (size_t c = 0; c < channels_; ++c)
-      most = std::max(most, absDiff(planes_[c].at(p.x, p.y), planes_[c].at(x, y)));
-    return most;
-  }
-
-  std::array<ImageView<const uint8_t>, 3> planes_;
-  size_t channels_;
-  const BitMask& mask_;
-  Box bounds_;
-};
 
 /// Visits the set pixels of a row that have an unset one beside, above or below.
 template <class Visit>
@@ -87,7 +36,7 @@ void forBorderColumns(const BitMask& mask, int y, Visit&& visit) {
 void growFaint(const FaintEvidence& evidence, const Executor& executor, CleaningScratch& cleaning,
                ContourScratch& scratch, BitMask& mask) {
   const Size size = mask.size();
-  thicken(mask, kReach, executor, scratch.across, scratch.near);
+  thicken(mask, kFaintReach, executor, scratch.across, scratch.near);
   BitMask& candidates = scratch.candidates;
   candidates.resize(size);
   for (int y = 0; y < size.height; ++y)
@@ -119,18 +68,16 @@ void trimBorder(const Picture& picture, const SmoothPicture& smoothed,
   BitMask& before = scratch.candidates;
   for (int y = 0; y < mask.height(); ++y)
     std::copy_n(mask.row(y), mask.wordsPerRow(), before.row(y));
-  const BorderReader reader(picture, before);
+  const std::array planes{picture.green(), picture.red(), picture.blue()};
+  const BorderReader<BitMask> reader{planes.data(), picture.isGrey() ? 1 : 3, before, mask.size()};
   executor.forRows(mask.height(), [&](int first, int last) {
     for (int y = first; y < last; ++y) {
       const RadiusRow radii = radiusRow(model, tolerance, y);
       const uint8_t* brightness = smoothed.planes[0].row(y);
       forBorderColumns(before, y, [&](int x) {
         const int radius = radiusAt(radii, brightness[x], x);
-        for (const Point out : {Point{-1, 0}, Point{1, 0}, Point{0, -1}, Point{0, 1}})
-          if (reader.isDrawnIn({x, y}, out, radius)) {
-            mask.row(y)[x / kWordColumns] &= ~(uint64_t{1} << x % kWordColumns);
-            break;
-          }
+        if (reader.isDrawnIn({x, y}, radius))
+          mask.row(y)[x / kWordColumns] &= ~(uint64_t{1} << x % kWordColumns);
       });
     }
   });

@@ -56,6 +56,15 @@ struct ConsensusBackground {
   }
 };
 
+/// What a few samples of a channel show together; sampleAt(sample).
+template <class SampleAt>
+[[nodiscard]] constexpr int modelledLevel(const SampleAt& sampleAt) {
+  constexpr int kMeant = 4;
+  int sum = 0;
+  for (int k = 0; k < kMeant; ++k) sum += sampleAt(k * kSamples / kMeant);
+  return sum / kMeant;
+}
+
 void prepare(Size size, int channels, ConsensusBackground& model);
 /// Starts from one picture: each pixel's samples are colours from its neighbourhood.
 void fillFrom(const SmoothPicture& picture, const Executor& executor, ConsensusBackground& model);

@@ -91,8 +91,7 @@ void plain::followStillWord(const StillWord& word, const RadiusRow& radius) {
     for (size_t c = 0; c < static_cast<size_t>(word.channels); ++c)
       off = std::max(off, absDiff(word.pixels[c][x], word.kept[c][x]));
     const bool isSame = off <= radiusAt(radius, word.pixels[0][x], x);
-    const int next = age != 0 && isSame ? std::max(+age, std::min<int>(age + 1, word.mostAge))
-                                        : age - std::min(+age, 1 + age / 4);
+    const int next = nextAge(age, isSame, word.mostAge);
     age = static_cast<uint16_t>(isForeground ? std::max(next, 1) : 0);
     if (!isForeground || next != 0) continue;
     for (size_t c = 0; c < static_cast<size_t>(word.channels); ++c)

@@ -7,6 +7,7 @@
 
 #include "core/simd/background/consensus_rows.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -21,6 +22,12 @@ struct StillWord {
   int channels;         ///< 1 or 3.
   uint64_t foreground;  ///< A bit a column.
 };
+
+/// The age of a foreground pixel of some age in the next frame; 0: it has none yet.
+[[nodiscard]] constexpr int nextAge(int age, bool isSame, int mostAge) {
+  if (age == 0 || !isSame) return age - std::min(age, 1 + age / 4);
+  return std::max(age, std::min(age + 1, mostAge));
+}
 
 namespace plain {
 /// Ages foreground columns whose colour is within the radius of the one that they keep, makes the
