@@ -53,16 +53,6 @@ __device__ uint32_t enclosedColumns(const Shadows& shadows, Point at, uint64_t t
   return enclosed;
 }
 
-__global__ void forgetParts(Size words, CastShadowView scratch) {
-  const WordOfThread word = wordOfThread(words);
-  if (!word.isInside) return;
-  const ComponentsView& found = scratch.found;
-  for (uint32_t i = found.firstRoot[word.index]; i < found.firstRoot[word.index + 1]; ++i) {
-    scratch.darkParts[i] = {};
-    scratch.darkOf[i] = 0;
-  }
-}
-
 __global__ void readParts(Shadows shadows, CastShadowView scratch) {
   const WordOfThread word = wordOfThread(shadows.dark.words.size);
   if (!word.isInside) return;
@@ -110,12 +100,14 @@ void keepCastShadows(const BitView& mask, const BitTarget& dark, const CastShado
                      Stream stream) {
   const Size words = mask.words.size;
   findComponents(dark, true, Connectivity::Four, scratch.found, stream);
-  start(overWords("forgetParts", mask, 4), stream, forgetParts, words, scratch);
+  start(overWords("forgetParts", mask, 4), stream, forgetParts<DarkPart>, words, scratch.found,
+        scratch.darkParts);
   start(overWords("readParts", mask, 40), stream, readParts, Shadows{mask, dark}, scratch);
   start(overWords("dropNoShadows", mask, 8), stream, changeParts<IsNoShadow>, dark, false,
         IsNoShadow{scratch.darkParts}, scratch.found);
   findComponents(mask, true, Connectivity::Eight, scratch.found, stream);
-  start(overWords("forgetParts", mask, 4), stream, forgetParts, words, scratch);
+  start(overWords("forgetParts", mask, 4), stream, forgetParts<uint32_t>, words, scratch.found,
+        scratch.darkOf);
   start(overWords("countDark", mask, 12), stream, countDark, BitView(dark), scratch);
   start(overWords("dropDarkObjects", mask, 8), stream, changeParts<IsMostlyDark>, dark, false,
         IsMostlyDark{scratch.darkOf}, scratch.found);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/background/models/consensus_turns.hpp"
 #include "core/base/pixel.hpp"
-#include "kernels/consensus_background.hpp"
+#include "kernels/model_pixels.hpp"
 #include "kernels/start.hpp"
 #include "kernels/threads.hpp"
 
@@ -13,31 +13,36 @@ using rg::background::kSamples;
 constexpr int kTileWidth = static_cast<int>(kTile.x) + 2;
 constexpr int kTileHeight = static_cast<int>(kTile.y) + 2;
 
-/// Loads a block's pixels and those around it; beyond the frame its border is repeated.
-template <class Tile>
-__device__ void loadTile(ImageView<const uint8_t> plane, Tile& tile) {
-  const int left = static_cast<int>(blockIdx.x * kTile.x) - 1;
+/// Loads a block's pixels and those around it, `width` of a row, to tile[from …]; beyond the frame
+/// its border is repeated.
+template <int width, class Tile>
+__device__ void loadTile(ImageView<const uint8_t> plane, int from, Tile& tile) {
+  const int left = static_cast<int>(blockIdx.x) * (width - 2) - 1;
   const int top = static_cast<int>(blockIdx.y * kTile.y) - 1;
-  for (int i = threadOfBlock(); i < kTileWidth * kTileHeight; i += kTile.x * kTile.y) {
-    const int x = i % kTileWidth, y = i / kTileWidth;
-    if (isMutated(Mutant::StaleHalo) && x == kTileWidth - 1) continue;
-    tile[i] = plane.at(std::clamp(left + x, 0, plane.width() - 1),
-                       std::clamp(top + y, 0, plane.height() - 1));
+  for (int i = threadOfBlock(); i < width * kTileHeight; i += kTile.x * kTile.y) {
+    const int x = i % width, y = i / width;
+    if (isMutated(Mutant::StaleHalo) && x == width - 1) continue;
+    tile[from + i] = plane.at(std::clamp(left + x, 0, plane.width() - 1),
+                              std::clamp(top + y, 0, plane.height() - 1));
   }
+}
+
+/// The level of a column whose sum by 1 2 1 is `middle`, of those beside it.
+__device__ uint8_t smoothed(int left, int middle, int right) {
+  return static_cast<uint8_t>(roundShift(left + 2 * middle + right, 4));
 }
 
 __global__ void smoothTiles(const __grid_constant__ Planes picture,
                             const __grid_constant__ PlaneTargets out) {
   RG_SHARED(uint8_t, tile, kTileWidth * kTileHeight);
-  loadTile(picture.planes[blockIdx.z], tile);
+  loadTile<kTileWidth>(picture.planes[blockIdx.z], 0, tile);
   if (!isMutated(Mutant::MissingBarrier)) __syncthreads();
   const Point p = pixelOfThread();
   if (!isWithin(p, out.size())) return;
   const int at =
       (static_cast<int>(threadIdx.y) + 1) * kTileWidth + static_cast<int>(threadIdx.x) + 1;
   const auto sum = [&](int i) { return tile[i - kTileWidth] + 2 * tile[i] + tile[i + kTileWidth]; };
-  out.planes[blockIdx.z].at(p.x, p.y) =
-      static_cast<uint8_t>(roundShift(sum(at - 1) + 2 * sum(at) + sum(at + 1), 4));
+  out.planes[blockIdx.z].at(p.x, p.y) = smoothed(sum(at - 1), sum(at), sum(at + 1));
 }
 
 /// A thread for each column of the words, also of those beyond the width.
@@ -66,11 +71,9 @@ struct Quads {
   unsigned radius, far, faint;
 };
 
-__device__ Quads loadQuads(const Planes& picture, const ModelView& model,
-                           const rg::background::Tolerance& tolerance, Point p) {
-  Quads quads{};
-  for (int c = 0; c < 3; ++c)
-    if (c < model.channels) quads.pixels[c] = loadQuad(picture.planes[c].row(p.y) + p.x);
+/// Of a place whose pixels are known.
+__device__ void setRadii(const ModelView& model, const rg::background::Tolerance& tolerance,
+                         Point p, Quads& quads) {
   const unsigned noise = loadQuad(model.noise.row(p.y) + p.x);
   const unsigned unrest = loadQuad(model.unrest.row(p.y) + p.x);
   for (int i = 0; i < 32; i += 8) {
@@ -82,7 +85,6 @@ __device__ Quads loadQuads(const Planes& picture, const ModelView& model,
     quads.far |= static_cast<unsigned>(rg::background::farRadius(radius)) << i;
     quads.faint |= static_cast<unsigned>(rg::background::faintRadius(radius)) << i;
   }
-  return quads;
 }
 
 __device__ unsigned distanceTo(const uint8_t* sample, const Quads& quads, int channels) {
@@ -121,25 +123,87 @@ __device__ uint64_t packQuads(unsigned isSet) {
   return uint64_t{eight} | uint64_t{other} << 32;
 }
 
-__global__ void judgeWords(const __grid_constant__ Planes picture,
-                           const __grid_constant__ ModelView model,
-                           rg::background::Tolerance tolerance, VerdictTargets out) {
+/// The word of half a warp, and the first of the four columns of a thread.
+struct QuadPlace {
+  int word;
+  Point at;
+  bool isInside;
+};
+__device__ QuadPlace placeOfQuad(Size size) {
   const int lane = static_cast<int>(threadIdx.x);
   const int word = static_cast<int>(blockIdx.x) * 2 + lane / kHalfWarp;
-  const Point p{word * kWordColumns + lane % kHalfWarp * kQuad,
-                static_cast<int>(blockIdx.y * blockDim.y + threadIdx.y)};
-  const bool isInside = word < wordsOf(model.size.width) && p.y < model.size.height;
-  const Quads quads = isInside ? loadQuads(picture, model, tolerance, p) : Quads{};
-  const unsigned second = secondDistance(model, quads, p, isInside);
+  const Point at{word * kWordColumns + lane % kHalfWarp * kQuad,
+                 static_cast<int>(blockIdx.y * blockDim.y + threadIdx.y)};
+  return {word, at, word < wordsOf(size.width) && at.y < size.height};
+}
+
+/// All of the warp must call.
+__device__ void judgeQuads(const ModelView& model, const rg::background::Tolerance& tolerance,
+                           const QuadPlace& place, Quads& quads, const VerdictTargets& out) {
+  if (place.isInside) setRadii(model, tolerance, place.at, quads);
+  const unsigned second = secondDistance(model, quads, place.at, place.isInside);
   const unsigned isRaw = __vcmpgtu4(second, quads.radius);
   const uint64_t raw = packQuads(isRaw);
   const uint64_t strong = packQuads(isRaw & __vcmpgtu4(second, quads.far));
   const uint64_t faint = packQuads(__vcmpgtu4(second, quads.faint));
-  if (!isInside || lane % kHalfWarp != 0) return;
-  const uint64_t columns = columnsOf(model.size.width, word);
-  out.raw.words.at(word, p.y) = raw & columns;
-  out.strong.words.at(word, p.y) = strong & columns;
-  out.faint.words.at(word, p.y) = faint & columns;
+  if (!place.isInside || static_cast<int>(threadIdx.x) % kHalfWarp != 0) return;
+  const uint64_t columns = columnsOf(model.size.width, place.word);
+  out.raw.words.at(place.word, place.at.y) = raw & columns;
+  out.strong.words.at(place.word, place.at.y) = strong & columns;
+  out.faint.words.at(place.word, place.at.y) = faint & columns;
+}
+
+__global__ void judgeWords(const __grid_constant__ Planes picture,
+                           const __grid_constant__ ModelView model,
+                           rg::background::Tolerance tolerance, VerdictTargets out) {
+  const QuadPlace place = placeOfQuad(model.size);
+  Quads quads{};
+  for (int c = 0; c < 3; ++c)
+    if (place.isInside && c < model.channels)
+      quads.pixels[c] = loadQuad(picture.planes[c].row(place.at.y) + place.at.x);
+  judgeQuads(model, tolerance, place, quads, out);
+}
+
+/// Four smoothed columns of a tile.
+constexpr int kJudgedWidth = 2 * kWordColumns + 2;
+template <class Tile>
+__device__ unsigned smoothedQuad(Tile& tile, int at) {
+  const auto sum = [&](int i) {
+    return tile[i - kJudgedWidth] + 2 * tile[i] + tile[i + kJudgedWidth];
+  };
+  int before = sum(at - 1), here = sum(at);
+  unsigned quad = 0;
+  for (int i = 0; i < kQuad; ++i) {
+    const int after = sum(at + i + 1);
+    quad |= static_cast<unsigned>(smoothed(before, here, after)) << 8 * i;
+    before = here;
+    here = after;
+  }
+  return quad;
+}
+
+__global__ void smoothAndJudgeWords(const __grid_constant__ Planes picture,
+                                    const __grid_constant__ ModelView model,
+                                    rg::background::Tolerance tolerance,
+                                    const __grid_constant__ JudgedPicture out) {
+  constexpr int kPlane = kJudgedWidth * kTileHeight;
+  RG_SHARED(uint8_t, tile, 3 * kPlane);
+  for (int c = 0; c < 3; ++c)
+    if (c < model.channels) loadTile<kJudgedWidth>(picture.planes[c], c * kPlane, tile);
+  __syncthreads();
+  const QuadPlace place = placeOfQuad(model.size);
+  const int at = (static_cast<int>(threadIdx.y) + 1) * kJudgedWidth +
+                 static_cast<int>(threadIdx.x) * kQuad + 1;
+  Quads quads{};
+  for (int c = 0; c < 3; ++c) {
+    if (c >= model.channels) break;
+    quads.pixels[c] = smoothedQuad(tile, c * kPlane + at);
+    for (int i = 0; i < kQuad; ++i)
+      if (place.isInside && place.at.x + i < model.size.width)
+        out.picture.planes[c].at(place.at.x + i, place.at.y) =
+            static_cast<uint8_t>(quads.pixels[c] >> 8 * i);
+  }
+  judgeQuads(model, tolerance, place, quads, out.verdicts);
 }
 
 __global__ void replaceSamples(BitView places, const __grid_constant__ Planes picture,
@@ -157,11 +221,8 @@ __global__ void paintSamples(BitView places, const __grid_constant__ ModelView m
   const Point p = pixelOfThread();
   if (!isWithin(p, model.size)) return;
   if (places.words.data != nullptr && places.words.at(p.x / kWordColumns, p.y) == 0) return;
-  for (int c = 0; c < model.channels; ++c) {
-    int sum = 0;
-    for (int k = 0; k < kSamples; k += kSamples / 4) sum += *model.sample(p, k, c);
-    out.planes[c].at(p.x, p.y) = static_cast<uint8_t>(roundShift(sum, 2));
-  }
+  for (int c = 0; c < model.channels; ++c)
+    out.planes[c].at(p.x, p.y) = static_cast<uint8_t>(paintedLevel(model, p, c));
 }
 
 double bytesOf(Size size, int channels) {
@@ -184,17 +245,32 @@ void fillFrom(const Planes& picture, const ModelView& model, Stream stream) {
         fillSamples, picture, model);
 }
 
-void judge(const Planes& picture, const ModelView& model,
-           const rg::background::Tolerance& tolerance, const VerdictTargets& out, Stream stream) {
-  // Where nothing moves, three samples are looked at: see secondDistance().
-  constexpr double kUsualSamples = 3;
+namespace {
+
+/// Where nothing moves, three samples are looked at: see secondDistance().
+constexpr double kUsualSamples = 3;
+
+Launch overQuads(const char* name, const ModelView& model, double planesMoved, double each) {
   const double bytes = bytesOf(model.size, model.channels);
   const auto pixels = static_cast<double>(model.size.area());
   const Size halves{(model.size.width + 1) / 2, model.size.height};
-  start(
-      launchOverWords("judge", halves,
-                      {(1 + kUsualSamples) * bytes + 2.4 * pixels, kUsualSamples * 5 * bytes / 4}),
-      stream, judgeWords, picture, model, tolerance, out);
+  return launchOverWords(name, halves,
+                         {(planesMoved + kUsualSamples) * bytes + 2.4 * pixels,
+                          (kUsualSamples * 5 / 4 + each) * bytes});
+}
+
+}  // namespace
+
+void judge(const Planes& picture, const ModelView& model,
+           const rg::background::Tolerance& tolerance, const VerdictTargets& out, Stream stream) {
+  start(overQuads("judge", model, 1, 0), stream, judgeWords, picture, model, tolerance, out);
+}
+
+void smoothAndJudge(const Planes& picture, const ModelView& model,
+                    const rg::background::Tolerance& tolerance, const JudgedPicture& out,
+                    Stream stream) {
+  start(overQuads("smoothAndJudge", model, 2, 9), stream, smoothAndJudgeWords, picture, model,
+        tolerance, out);
 }
 
 void replaceWhere(const BitView& places, const Planes& picture, const ModelView& model,

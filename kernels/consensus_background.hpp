@@ -36,6 +36,14 @@ void smooth(const Planes& picture, const PlaneTargets& out, Stream stream);
 void fillFrom(const Planes& picture, const ModelView& model, Stream stream);
 void judge(const Planes& picture, const ModelView& model,
            const rg::background::Tolerance& tolerance, const VerdictTargets& out, Stream stream);
+/// smooth and judge in one launch, so that the smoothed picture is written only.
+struct JudgedPicture {
+  PlaneTargets picture;
+  VerdictTargets verdicts;
+};
+void smoothAndJudge(const Planes& picture, const ModelView& model,
+                    const rg::background::Tolerance& tolerance, const JudgedPicture& out,
+                    Stream stream);
 void learn(const Planes& picture, const LearntFrame& seen,
            const rg::background::ConsensusRate& rate, const ModelView& model, Stream stream);
 void replaceWhere(const BitView& places, const Planes& picture, const ModelView& model,

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "core/background/background.hpp"
 #include "kernels/mask_cleaning.hpp"
 #include "kernels/start.hpp"
 #include "kernels/word_runs.hpp"
@@ -46,6 +47,18 @@ __global__ void keepMajorityOfWords(BitView mask, int radius, int limit, BitTarg
   const uint64_t word = packWord(isMajority(lane), isMajority(lane + kWarp));
   if (lane == 0 && at.y < height)
     out.words.at(at.x, at.y) = word & columnsOf(mask.size.width, at.x);
+}
+
+__global__ void paintPixels(BitView mask, BitView shadow, Point shift, ImageView<uint8_t> out) {
+  const Point p = pixelOfThread();
+  if (!isWithin(p, out.size)) return;
+  const Point from{p.x + shift.x, p.y + shift.y};
+  uint8_t value = rg::background::kBackgroundPixel;
+  if (boundsOf(out.size).contains(from)) {
+    if (isSet(mask, from.x, from.y)) value = rg::background::kForegroundPixel;
+    if (isSet(shadow, from.x, from.y)) value = rg::background::kShadowPixel;
+  }
+  out.at(p.x, p.y) = value;
 }
 
 struct IsSmall {
@@ -115,6 +128,13 @@ void keepSupported(const BitTarget& mask, const BitView& strong, uint32_t leastP
   start(overWords("countStrong", mask, 12), stream, countStrong, strong, scratch);
   start(overWords("keepSupported", mask, 8), stream, changeParts<IsSmall>, mask, false,
         IsSmall{leastPx}, scratch);
+}
+
+void paintForeground(const BitView& mask, const BitView& shadow, Point shift,
+                     ImageView<uint8_t> out, Stream stream) {
+  const auto pixels = static_cast<double>(out.size.area());
+  start(launchOver("paintForeground", out.size, 1, {1.25 * pixels, 4 * pixels}), stream,
+        paintPixels, mask, shadow, shift, out);
 }
 
 }  // namespace rg::gpu::background

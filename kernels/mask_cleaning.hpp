@@ -17,5 +17,7 @@ void fillHoles(const BitTarget& mask, uint32_t mostPx, const ComponentsView& scr
                Stream stream);
 void keepSupported(const BitTarget& mask, const BitView& strong, uint32_t leastPx,
                    const ComponentsView& scratch, Stream stream);
+void paintForeground(const BitView& mask, const BitView& shadow, Point shift,
+                     ImageView<uint8_t> out, Stream stream);
 
 }  // namespace rg::gpu::background

@@ -11,6 +11,9 @@
   X(quantile, rg::quantile, rg::gpu::quantile)                                              \
   X(differenceThreshold, rg::differenceThreshold, rg::gpu::differenceThreshold)             \
   X(contrastThreshold, rg::contrastThreshold, rg::gpu::contrastThreshold)                   \
+  X(countSet, rg::countSet, rg::gpu::countSet)                                              \
+  X(keepInside, rg::keepInside, rg::gpu::keepInside)                                        \
+  X(fillUnedged, rg::fillUnedged, rg::gpu::fillUnedged)                                     \
   X(packEqual, rg::packEqual, rg::gpu::packEqual)                                           \
   X(paint, rg::paint, rg::gpu::paint)                                                       \
   X(remove, rg::remove, rg::gpu::remove)                                                    \
@@ -28,6 +31,21 @@
   X(dropSmallParts, rg::background::dropSmallParts, rg::gpu::background::dropSmallParts)    \
   X(fillHoles, rg::background::fillHoles, rg::gpu::background::fillHoles)                   \
   X(keepSupported, rg::background::keepSupported, rg::gpu::background::keepSupported)       \
+  X(smoothAndJudge, rg::background::smoothAndJudge, rg::gpu::background::smoothAndJudge)    \
+  X(growFaint, rg::background::growFaint, rg::gpu::background::growFaint)                   \
+  X(trimBorder, rg::background::trimBorder, rg::gpu::background::trimBorder)                \
+  X(followStill, rg::background::followStill, rg::gpu::background::followStill)             \
+  X(addAged, rg::background::addAged, rg::gpu::background::addAged)                         \
+  X(findGhosts, rg::background::findGhosts, rg::gpu::background::findGhosts)                \
+  X(addDisplaced, rg::background::addDisplaced, rg::gpu::background::addDisplaced)          \
+  X(countLit, rg::background::countLit, rg::gpu::background::countLit)                      \
+  X(countVivid, rg::background::countVivid, rg::gpu::background::countVivid)                \
+  X(sumShifted, rg::background::sumShifted, rg::gpu::background::sumShifted)                \
+  X(countFullFields, rg::background::countFullFields, rg::gpu::background::countFullFields) \
+  X(shiftPicture, rg::background::shiftPicture, rg::gpu::background::shiftPicture)          \
+  X(countApart, rg::background::countApart, rg::gpu::background::countApart)                \
+  X(relight, rg::background::relight, rg::gpu::background::relight)                         \
+  X(paintForeground, rg::background::paintForeground, rg::gpu::background::paintForeground) \
   X(train, rg::background::train, rg::gpu::background::train)                               \
   X(finishTraining, rg::background::finishTraining, rg::gpu::background::finishTraining)    \
   X(testGaussian, rg::background::testGaussian, rg::gpu::background::testGaussian)          \

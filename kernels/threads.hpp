@@ -30,6 +30,12 @@ __device__ inline int indexInGrid() {
   return static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);
 }
 
+/// Calls visit(column) for each set bit of a word whose first column is `first`.
+template <class Visit>
+__device__ void forBits(uint64_t bits, int first, const Visit& visit) {
+  for (; bits != 0; bits &= bits - 1) visit(first + __ffsll(static_cast<long long>(bits)) - 1);
+}
+
 /// A word of which each lane knows the columns `lane` and `lane` + 32. The whole warp must call.
 __device__ inline uint64_t packWord(bool low, bool high) {
   const uint64_t lower = __ballot_sync(kFullWarp, low);

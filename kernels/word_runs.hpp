@@ -56,6 +56,27 @@ __global__ void changeParts(BitTarget mask, bool value, Choice isChosen, Compone
   columns = value ? columns | changed : columns & ~changed;
 }
 
+/// The same of an empty mask; what is in `out` is written over.
+template <class Choice>
+__global__ void markParts(BitTarget out, Choice isChosen, ComponentsView found) {
+  const WordOfThread word = wordOfThread(out.words.size);
+  if (!word.isInside) return;
+  uint64_t marked = 0;
+  forRunsIn(found, word, [&](uint32_t run, uint64_t bits) {
+    if (isChosen(found, found.runs[run].component)) marked |= bits;
+  });
+  out.words.at(word.at.x, word.at.y) = marked;
+}
+
+/// Sets what is known of each component to nothing.
+template <class T>
+__global__ void forgetParts(Size words, ComponentsView found, T* values) {
+  const WordOfThread word = wordOfThread(words);
+  if (!word.isInside) return;
+  for (uint32_t i = found.firstRoot[word.index]; i < found.firstRoot[word.index + 1]; ++i)
+    values[i] = {};
+}
+
 /// A launch of a thread for each word.
 inline Launch overWords(const char* name, const BitView& mask, double bytesOfWord) {
   const auto words = static_cast<double>(mask.words.size.area());

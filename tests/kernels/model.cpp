@@ -3,6 +3,7 @@
 // integer operations over its rate, and a launch's own time. Modelled, never measured.
 //
 // usage: kernel-model [WIDTH HEIGHT]
+#include "core/background/background.hpp"
 #include "core/motion/shift_search.hpp"
 #include "kernels/kernels.hpp"
 #include "kernels/shim/block.hpp"
@@ -58,10 +59,53 @@ void loadFrame(Size size) {
 /// Cleaning of a mask, as method hybrid does it from its third frame on.
 void launchCleaning(const Memory& m) {
   const auto pixels = static_cast<uint32_t>(m.size.area());
+  const auto keepWhole = [&] {
+    gpu::background::keepSupported(m.bits, m.bits, 4, {}, nullptr);
+    gpu::background::fillHoles(m.bits, pixels / 50, {}, nullptr);
+  };
   gpu::background::keepMajority(m.bits, 3, 115, m.bits, nullptr);
-  gpu::background::keepSupported(m.bits, m.bits, 4, {}, nullptr);
-  gpu::background::fillHoles(m.bits, pixels / 50, {}, nullptr);
+  keepWhole();
+  gpu::fillUnedged(m.planes.planes[0], kMostGapStep, mostGapPx(m.size), {m.bits, m.bits, {}, {}},
+                   m.bits, nullptr);
+  gpu::background::growFaint(m.planes, m.model, m.bits, {m.bits, m.bits, m.bits}, m.bits, nullptr);
+  keepWhole();
+  gpu::background::trimBorder({m.planes, m.planes.planes[0]}, m.model, {5, 20}, m.bits, m.bits,
+                              nullptr);
   gpu::background::dropSmallParts(m.bits, 8, {}, nullptr);
+}
+
+/// What stands still, in a frame in which nothing is asked whether it was displaced.
+void launchGhosts(const Memory& m) {
+  const gpu::background::StillView still{m.targets, plane<uint16_t>(m.size), m.bits,
+                                         plane<uint8_t>(m.size)};
+  gpu::background::followStill(m.planes, m.model, {5, 20}, m.bits, UINT16_MAX, still, nullptr);
+  gpu::background::findGhosts(m.planes, m.model, m.bits, still, 12, {m.bits, {}, nullptr}, m.bits,
+                              nullptr);
+  gpu::background::addAged(m.bits, still, 32000, m.bits, nullptr);
+  gpu::background::replaceWhere(m.bits, m.planes, m.model, nullptr);
+  gpu::remove(m.bits, m.bits, nullptr);
+}
+
+/// Method hybrid in a scene of which not much differs from its model.
+void launchBackground(const Memory& m) {
+  uint32_t differing = 0;
+  gpu::background::smoothAndJudge(m.planes, m.model, {5, 20}, {m.targets, {m.bits, m.bits, m.bits}},
+                                  nullptr);
+  gpu::countSet(m.bits, &differing, nullptr);
+  launchCleaning(m);
+  launchGhosts(m);
+  gpu::thicken(m.bits, 2, m.bits, nullptr);
+  gpu::background::learn(m.planes, {m.bits, m.bits, m.bits, m.bits}, {1, 16, false}, m.model,
+                         nullptr);
+  gpu::background::paintModelAt(m.bits, m.model, m.targets, nullptr);
+  const background::ColourPlanes planes{m.planes.planes[0], m.planes.planes[1], m.planes.planes[2]};
+  gpu::background::findShadows(planes, planes, m.bits, m.bits, nullptr);
+  gpu::background::keepMajority(m.bits, 1, 128, m.bits, nullptr);
+  gpu::keepOnly(m.bits, m.bits, nullptr);
+  gpu::background::keepCastShadows(m.bits, m.bits, {}, nullptr);
+  gpu::background::paintForeground(m.bits, m.bits, {}, m.targets.planes[0], nullptr);
+  gpu::packEqual(m.planes.planes[0], background::kForegroundPixel, m.bits, nullptr);
+  gpu::findComponents(m.bits, true, Connectivity::Eight, {}, nullptr);
 }
 
 /// 160 regions that are matched with all of their pixels, by shifts of up to 20.
@@ -83,19 +127,7 @@ void launchSearch(const Memory& m) {
 void launchFrame(Size size) {
   const Memory m{size};
   loadFrame(size);
-  gpu::background::smooth(m.planes, m.targets, nullptr);
-  gpu::background::judge(m.planes, m.model, {5, 20}, {m.bits, m.bits, m.bits}, nullptr);
-  launchCleaning(m);
-  gpu::background::replaceWhere(m.bits, m.planes, m.model, nullptr);
-  gpu::remove(m.bits, m.bits, nullptr);
-  gpu::thicken(m.bits, 2, m.bits, nullptr);
-  gpu::background::learn(m.planes, {m.bits, m.bits, m.bits, m.bits}, {1, 16, false}, m.model,
-                         nullptr);
-  gpu::background::paintModelAt(m.bits, m.model, m.targets, nullptr);
-  const background::ColourPlanes planes{m.planes.planes[0], m.planes.planes[1], m.planes.planes[2]};
-  gpu::background::findShadows(planes, planes, m.bits, m.bits, nullptr);
-  gpu::background::keepMajority(m.bits, 1, 128, m.bits, nullptr);
-  gpu::keepOnly(m.bits, m.bits, nullptr);
+  launchBackground(m);
   launchSearch(m);
 }
 

@@ -1,80 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "tests/kernels/parity.hpp"
-#include "tests/kernels/pictures.hpp"
+#include "tests/kernels/scenes.hpp"
 
 namespace rg::test {
-namespace {
-
 using background::ConsensusBackground;
 using background::SmoothPicture;
-
-/// A model on the device, with core's contents or empty.
-struct DeviceModel {
-  Plane<uint8_t> samples, noise, unrest;
-  int channels;
-  DeviceModel(Size size, int count)
-      : samples(
-            {gpu::wordsOf(size.width) * kWordColumns * background::kSamples * count, size.height}),
-        noise(size),
-        unrest(size),
-        channels(count) {}
-  explicit DeviceModel(const ConsensusBackground& from)
-      : samples(from.samples.view()),
-        noise(from.noise.view()),
-        unrest(from.unrest.view()),
-        channels(from.channels) {}
-  gpu::background::ModelView view() {
-    return {noise.view().size, channels, samples, noise, unrest};
-  }
-  void expect(const ConsensusBackground& expected) {
-    noise.expect(expected.noise.view(), "noise");
-    unrest.expect(expected.unrest.view(), "unrest");
-    samples.expect(expected.samples.view(), "samples");
-  }
-};
-
-/// A scene that core has learnt for some frames, and the next frame's picture and verdicts.
-struct LearntScene {
-  Picture picture;
-  SmoothPicture smooth;
-  ConsensusBackground model;
-  background::Verdicts verdicts;
-  BitMask mask, near, previousRaw;
-  uint32_t frame = 0;
-
-  LearntScene(Size size, int fill, bool isGrey, int frames) : mask(size), previousRaw(size) {
-    loadScene(size, fill, 0, isGrey, picture);
-    background::smooth(picture, oneThread(), smooth);
-    background::prepare(size, isGrey ? 1 : 3, model);
-    background::fillFrom(smooth, oneThread(), model);
-    previousRaw.clear();
-    for (int i = 1; i <= frames; ++i) {
-      if (i > 1) {
-        background::learn(smooth, {mask, near, verdicts.raw, previousRaw}, {frame, 2, false},
-                          oneThread(), model);
-        std::swap(verdicts.raw, previousRaw);
-      }
-      frame = static_cast<uint32_t>(i);
-      loadScene(size, fill, i, isGrey, picture);
-      background::smooth(picture, oneThread(), smooth);
-      background::judge(smooth, model, {5, 20}, oneThread(), verdicts);
-      mask = scattered(size, frame);
-      near = scattered(size, frame);
-    }
-  }
-};
-
-template <class Check>
-void forScenes(int frames, const Check& check) {
-  forSizesAndFills([&](Size size, int fill) {
-    for (const bool isGrey : {false, true}) {
-      SCOPED_TRACE(isGrey ? "grey" : "colour");
-      check(LearntScene(size, fill, isGrey, frames));
-    }
-  });
-}
-
-}  // namespace
 
 void parity_smooth() {
   forScenes(1, [](const LearntScene& scene) {
@@ -110,6 +40,27 @@ void parity_judge() {
       raw.expect(expected.raw, "raw");
       strong.expect(expected.strong, "strong");
       faint.expect(expected.faint, "faint");
+    }
+  });
+}
+
+void parity_smoothAndJudge() {
+  forScenes(3, [](const LearntScene& scene) {
+    DeviceModel model(scene.model);
+    const Size size = scene.smooth.size();
+    for (const background::Tolerance tolerance : {background::Tolerance{5, 20}, {200, 255}}) {
+      SmoothPicture expected;
+      background::Verdicts verdicts;
+      background::smoothAndJudge(scene.picture, scene.model, tolerance, oneThread(),
+                                 {expected, verdicts});
+      DevicePlanes smooth(size, scene.smooth.channels);
+      Bits raw(size), strong(size), faint(size);
+      gpu::background::smoothAndJudge(planesOf(scene.picture), model.view(), tolerance,
+                                      {smooth, {raw, strong, faint}}, nullptr);
+      smooth.expect(expected.planes, "smooth");
+      raw.expect(verdicts.raw, "raw");
+      strong.expect(verdicts.strong, "strong");
+      faint.expect(verdicts.faint, "faint");
     }
   });
 }

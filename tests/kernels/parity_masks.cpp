@@ -1,80 +1,17 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/background/mask_cleaning.hpp"
+#include "core/base/mask_gaps.hpp"
 #include "kernels/cast_shadows.hpp"
+#include "kernels/mask_gaps.hpp"
 #include "kernels/primitives.hpp"
 #include "kernels/shim/block.hpp"
-#include "tests/kernels/parity.hpp"
+#include "tests/kernels/masks.hpp"
 
 #include <numeric>
 #include <vector>
 
 namespace rg::test {
 namespace {
-
-/// Masks that are hard on components: full, empty, dots that touch by corners only, combs whose
-/// teeth meet in the last row, spirals of one pixel, patches.
-constexpr int kMasks = 8;
-BitMask maskOf(Size size, int kind) {
-  BitMask mask(size);
-  mask.clear();
-  const auto isSet = [&](int x, int y) {
-    const int ring = std::min(std::min(x, size.width - 1 - x), std::min(y, size.height - 1 - y));
-    switch (kind) {
-      case 0:
-        return true;
-      case 1:
-        return false;
-      case 2:
-        return (x + y) % 2 == 0;
-      case 3:
-        return x % 2 == 0 || y == size.height - 1;
-      case 4:
-        return ring % 2 == 0 && !(x == ring && y == ring + 1);
-      case 5:
-        return hashOf(x, y, 1) % 2 == 0;
-      case 6:
-        return hashOf(x / 7, y / 3, 2) % 3 != 0;
-      default:
-        return hashOf(x, y, 3) % 40 == 0;
-    }
-  };
-  for (int y = 0; y < size.height; ++y)
-    for (int x = 0; x < size.width; ++x)
-      if (isSet(x, y)) mask.set(x, y);
-  return mask;
-}
-
-template <class Check>
-void forMasks(const Check& check) {
-  for (const Size size : kSizes)
-    for (int kind = 0; kind < kMasks && !::testing::Test::HasFailure(); ++kind) {
-      SCOPED_TRACE(std::to_string(size.width) + "x" + std::to_string(size.height) + ", mask " +
-                   std::to_string(kind));
-      check(maskOf(size, kind));
-    }
-}
-
-struct DeviceComponents {
-  std::vector<ComponentRun> runs;
-  std::vector<Component> list;
-  std::vector<uint32_t> parents, numbers, firstRun, firstRoot, scratch;
-
-  explicit DeviceComponents(Size size) {
-    const auto most = static_cast<size_t>(gpu::mostRuns(size));
-    const int words = gpu::wordsOf(size.width) * size.height;
-    runs.resize(most);
-    list.resize(most);
-    for (std::vector<uint32_t>* numbersOfRuns : {&parents, &numbers})
-      numbersOfRuns->assign(most, 0xA5A5A5A5);
-    for (std::vector<uint32_t>* ofWords : {&firstRun, &firstRoot})
-      ofWords->assign(static_cast<size_t>(words) + 1, 0xA5A5A5A5);
-    scratch.assign(static_cast<size_t>(gpu::scanScratchOf(words)) + 1, 0xA5A5A5A5);
-  }
-  gpu::ComponentsView view() {
-    return {runs.data(),     list.data(),      parents.data(), numbers.data(),
-            firstRun.data(), firstRoot.data(), scratch.data()};
-  }
-};
 
 void expectSame(const DeviceComponents& found, const Components& expected) {
   ASSERT_EQ(found.firstRun.back(), expected.runs.size());
@@ -133,6 +70,64 @@ void parity_keepOnly() {
     gpu::keepOnly(Bits(mask), there, nullptr);
     there.expect(expected, "rest");
   });
+}
+
+void parity_countSet() {
+  forMasks([](const BitMask& mask) {
+    uint32_t count = 0xA5A5A5A5;
+    gpu::countSet(Bits(mask), &count, nullptr);
+    ASSERT_EQ(count, countSet(mask));
+  });
+}
+
+void parity_keepInside() {
+  forMasks([](const BitMask& mask) {
+    Image<uint8_t> interest(mask.size()), scope = filled(mask.size(), 5);
+    interest.fill(0);
+    paint(mask, 255, interest);
+    Plane<uint8_t> there(scope.view());
+    gpu::keepInside(Plane<uint8_t>(interest.view()), there, nullptr);
+    keepInside(interest, scope);
+    there.expect(scope.view(), "inside");
+  });
+}
+
+void parity_paintForeground() {
+  forMasks([](const BitMask& mask) {
+    for (const Point shift : {Point{0, 0}, Point{3, -1}, Point{-2, 3}}) {
+      if (mask.width() < 4 && shift != Point{}) continue;  // Nothing that findShift() could see.
+      const BitMask shadow = scattered(mask.size(), 5);
+      Image<uint8_t> expected(mask.size());
+      background::paintForeground(mask, shadow, shift, oneThread(), expected);
+      Plane<uint8_t> out(mask.size());
+      gpu::background::paintForeground(Bits(mask), Bits(shadow), shift, out, nullptr);
+      out.expect(expected.view(), "foreground");
+    }
+  });
+}
+
+void parity_fillUnedged() {
+  uint32_t filledPixels = 0;
+  forMasks([&](const BitMask& mask) {
+    const Size size = mask.size();
+    for (const int fill : {0, 4, 5})
+      for (const uint32_t mostPx : {20u, 5000u}) {
+        const Image<uint8_t> picture = filled(size, fill);
+        GapScratch scratch;
+        BitMask expected(size);
+        for (int y = 0; y < size.height; ++y)
+          std::copy_n(mask.row(y), mask.wordsPerRow(), expected.row(y));
+        fillUnedged(picture, 40, mostPx, oneThread(), scratch, expected);
+        Bits there(mask), thick(size), chosen(size);
+        DeviceComponents parts(size);
+        std::vector<GapContour> contours(parts.runs.size());
+        gpu::fillUnedged(Plane<uint8_t>(picture.view()), 40, mostPx,
+                         {thick, chosen, parts.view(), contours.data()}, there, nullptr);
+        there.expect(expected, "without gaps");
+        filledPixels += countSet(expected) - countSet(mask);
+      }
+  });
+  EXPECT_GT(filledPixels, 0u);
 }
 
 void parity_thicken() {
