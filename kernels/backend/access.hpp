@@ -7,6 +7,7 @@
 #include "core/base/bit_mask.hpp"
 #include "core/base/memory/image.hpp"
 #include "kernels/consensus_background.hpp"
+#include "kernels/ghosts.hpp"
 #include "kernels/views.hpp"
 
 #include <concepts>
@@ -128,6 +129,25 @@ class Access {
     return views;
   }
 
+  [[nodiscard]] ImageView<uint8_t> write(Image<uint8_t>& image) const {
+    return image.writeOn(device_);
+  }
+  [[nodiscard]] background::VerdictTargets write(rg::background::Verdicts& out, Size size) const {
+    return {write(out.raw, size), write(out.strong, size), write(out.faint, size)};
+  }
+
+  /// For kernels that only look how old pixels are.
+  [[nodiscard]] background::StillView read(const rg::background::StillPixels& still) const {
+    return {{}, readOnly(still.ages), {}, {}};
+  }
+  [[nodiscard]] background::StillView change(rg::background::StillPixels& still,
+                                             int channels) const {
+    PlaneTargets colours{{}, channels};
+    for (int c = 0; c < channels; ++c) colours.planes[c] = still.colours[at(c)].changeOn(device_);
+    return {colours, still.ages.changeOn(device_), change(still.aged),
+            still.fresh.changeOn(device_)};
+  }
+
   /// For kernels that only read it.
   [[nodiscard]] background::ModelView read(const rg::background::ConsensusBackground& model) const {
     return {model.noise.size(), model.channels, readOnly(model.samples), readOnly(model.noise),
@@ -144,9 +164,10 @@ class Access {
 
  private:
   static size_t at(int channel) { return static_cast<size_t>(channel); }
-  [[nodiscard]] ImageView<uint8_t> readOnly(const Image<uint8_t>& image) const {
-    const ImageView<const uint8_t> view = image.readOn(device_);
-    return {const_cast<uint8_t*>(view.data), view.size, view.strideBytes};
+  template <class T>
+  [[nodiscard]] ImageView<T> readOnly(const Image<T>& image) const {
+    const ImageView<const T> view = image.readOn(device_);
+    return {const_cast<T*>(view.data), view.size, view.strideBytes};
   }
 
   Device& device_;

@@ -4,23 +4,37 @@
 #include "kernels/backend/dispatcher.hpp"
 #include "kernels/bit_mask.hpp"
 #include "kernels/cast_shadows.hpp"
+#include "kernels/displaced_things.hpp"
+#include "kernels/ghosts.hpp"
+#include "kernels/histogram.hpp"
+#include "kernels/light_switch.hpp"
 #include "kernels/mask_cleaning.hpp"
+#include "kernels/mask_contour.hpp"
+#include "kernels/mask_gaps.hpp"
+#include "kernels/scene_watch.hpp"
 #include "kernels/shadow.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
 
 namespace rg::gpu::background {
 namespace {
 
 using rg::background::ConsensusBackground;
 using rg::background::ConsensusRate;
+using rg::background::ContourSums;
 using rg::background::FaintEvidence;
 using rg::background::JudgedPicture;
 using rg::background::LevelMaps;
-using rg::background::PublishedMasks;
+using rg::background::LitPoints;
+using rg::background::ShiftedSums;
 using rg::background::ShownModel;
 using rg::background::SmoothPicture;
 using rg::background::StillPixels;
 using rg::background::Tolerance;
 using rg::background::Verdicts;
+using rg::background::VividPoints;
 using Cpu = rg::background::Operations;
 
 class GpuOperations final : public Cpu, private Dispatcher {
@@ -28,21 +42,33 @@ class GpuOperations final : public Cpu, private Dispatcher {
   GpuOperations(GpuDevice& device, const Executor& executor) : Cpu(executor), Dispatcher(device) {}
 
   void smooth(const Picture& picture, SmoothPicture& out) override {
-    run([&] { smoothOnDevice(picture, out); }, [&] { Cpu::smooth(picture, out); }, Writes{out});
+    run(
+        [&] {
+          const Planes from = on().read(picture);
+          background::smooth(from, on().write(out, from.size(), from.channels), stream());
+        },
+        [&] { Cpu::smooth(picture, out); }, Writes{out});
   }
   void smoothAndJudge(const Picture& picture, const ConsensusBackground& model,
                       const Tolerance& tolerance, const JudgedPicture& out) override {
     run(
         [&] {
-          smoothOnDevice(picture, out.picture);
-          judgeOnDevice(out.picture, model, tolerance, out.verdicts);
+          const Planes from = on().read(picture);
+          background::smoothAndJudge(from, on().read(model), tolerance,
+                                     {on().write(out.picture, from.size(), from.channels),
+                                      on().write(out.verdicts, from.size())},
+                                     stream());
         },
         [&] { Cpu::smoothAndJudge(picture, model, tolerance, out); }, Reads{model},
         Writes{out.picture}, Writes{out.verdicts});
   }
   void judge(const SmoothPicture& picture, const ConsensusBackground& model,
              const Tolerance& tolerance, Verdicts& out) override {
-    run([&] { judgeOnDevice(picture, model, tolerance, out); },
+    run(
+        [&] {
+          background::judge(on().read(picture), on().read(model), tolerance,
+                            on().write(out, picture.size()), stream());
+        },
         [&] { Cpu::judge(picture, model, tolerance, out); }, Reads{picture}, Reads{model},
         Writes{out});
   }
@@ -91,34 +117,64 @@ class GpuOperations final : public Cpu, private Dispatcher {
   }
 
   uint32_t countSet(const BitMask& mask) override {
-    return onHost([&] { return Cpu::countSet(mask); }, Reads{mask});
+    return ask<uint32_t>(
+        [&](uint32_t* count) { rg::gpu::countSet(on().read(mask), count, stream()); },
+        [&] { return Cpu::countSet(mask); }, Reads{mask});
   }
   bool isDarkerThan(const SmoothPicture& picture, int level) override {
-    return onHost([&] { return Cpu::isDarkerThan(picture, level); }, Reads{picture});
+    return isDark(ask<LitPoints>(
+        [&](LitPoints* points) { countLit(on().read(picture), level, points, stream()); },
+        [&] { return rg::background::countLit(picture, level); }, Reads{picture}));
   }
   bool isEverywhere(const BitMask& mask) override {
-    return onHost([&] { return Cpu::isEverywhere(mask); }, Reads{mask});
+    return rg::background::isEverywhere(
+        ask<int>([&](int* full) { countFullFields(on().read(mask), full, stream()); },
+                 [&] { return rg::background::countFullFields(mask); }, Reads{mask}));
   }
   bool hasSwitchedColour(const SmoothPicture& picture, const ConsensusBackground& model) override {
-    return onHost([&] { return Cpu::hasSwitchedColour(picture, model); }, Reads{picture},
-                  Reads{model});
+    if (picture.channels == 1) return false;
+    return rg::background::hasSwitchedColour(ask<VividPoints>(
+        [&](VividPoints* points) {
+          countVivid(on().read(picture), on().read(model), points, stream());
+        },
+        [&] { return rg::background::countVivid(picture, model); }, Reads{picture}, Reads{model}));
   }
   Point findShift(const SmoothPicture& picture, const ConsensusBackground& model) override {
-    return onHost([&] { return Cpu::findShift(picture, model); }, Reads{picture}, Reads{model});
+    return bestShift(ask<ShiftedSums>(
+        [&](ShiftedSums* sums) {
+          sumShifted(on().read(picture), on().read(model), sums, stream());
+        },
+        [&] { return rg::background::sumShifted(picture, model); }, Reads{picture}, Reads{model}));
   }
   void shiftPicture(Point shift, SmoothPicture& spare, SmoothPicture& picture) override {
-    onHost([&] { Cpu::shiftPicture(shift, spare, picture); }, Writes{spare}, Changes{picture});
+    run(
+        [&] {
+          const Planes from = on().read(picture);
+          background::shiftPicture(shift, from, on().write(spare, from.size(), from.channels),
+                                   stream());
+          std::swap(spare, picture);
+        },
+        [&] { Cpu::shiftPicture(shift, spare, picture); }, Writes{spare}, Changes{picture});
   }
   LevelMaps matchLight(const ShownModel& shown, const SmoothPicture& picture) override {
-    return onHost([&] { return Cpu::matchLight(shown, picture); }, Reads{shown}, Reads{picture});
+    LevelMaps maps{};
+    for (size_t c = 0; c < static_cast<size_t>(picture.channels); ++c)
+      maps[c] = rg::background::matchLevels(levelsOf(shown[c]), levelsOf(picture.planes[c]));
+    return maps;
   }
   uint32_t countApart(const ShownModel& shown, const SmoothPicture& picture, const LevelMaps& maps,
                       const ConsensusBackground& model, const Tolerance& tolerance) override {
-    return onHost([&] { return Cpu::countApart(shown, picture, maps, model, tolerance); },
-                  Reads{shown}, Reads{picture}, Reads{model});
+    return ask<uint32_t>(
+        [&](uint32_t* pixels) {
+          background::countApart({on().read(shown, picture.channels), on().read(picture)}, maps,
+                                 on().read(model), tolerance, pixels, stream());
+        },
+        [&] { return Cpu::countApart(shown, picture, maps, model, tolerance); }, Reads{shown},
+        Reads{picture}, Reads{model});
   }
   void relight(const LevelMaps& maps, ConsensusBackground& model) override {
-    onHost([&] { Cpu::relight(maps, model); }, Changes{model});
+    run([&] { background::relight(maps, on().change(model), stream()); },
+        [&] { Cpu::relight(maps, model); }, Changes{model});
   }
 
   void keepMajority(const BitMask& mask, int radius, int share, BitMask& out) override {
@@ -156,18 +212,41 @@ class GpuOperations final : public Cpu, private Dispatcher {
   }
   void fillUnedged(const SmoothPicture& picture, int mostStep, uint32_t mostPx,
                    BitMask& mask) override {
-    onHost([&] { Cpu::fillUnedged(picture, mostStep, mostPx, mask); }, Reads{picture.planes[0]},
-           Changes{mask});
+    run(
+        [&] {
+          const Size size = mask.size();
+          const GapView view{scratchMask(size), scratchMask(size), components(size),
+                             scratch().take<GapContour>(mostRuns(size))};
+          const Planes from = on().read(picture);
+          rg::gpu::fillUnedged(from.planes[0], mostStep, mostPx, view, on().change(mask), stream());
+        },
+        [&] { Cpu::fillUnedged(picture, mostStep, mostPx, mask); }, Reads{picture.planes[0]},
+        Changes{mask});
   }
   void growFaint(const FaintEvidence& evidence, BitMask& mask) override {
-    onHost([&] { Cpu::growFaint(evidence, mask); }, Reads{evidence.picture}, Reads{evidence.model},
-           Reads{evidence.faint}, Writes{evidence.shown}, Changes{mask});
+    run(
+        [&] {
+          const Size size = mask.size();
+          const ContourView view{scratchMask(size), scratchMask(size), scratchMask(size)};
+          const BitView faint = on().read(evidence.faint);
+          background::growFaint(on().read(evidence.picture), on().read(evidence.model), faint, view,
+                                on().change(mask), stream());
+        },
+        [&] { Cpu::growFaint(evidence, mask); }, Reads{evidence.picture}, Reads{evidence.model},
+        Reads{evidence.faint}, Writes{evidence.shown}, Changes{mask});
   }
   void trimBorder(const Picture& picture, const SmoothPicture& smoothed,
                   const ConsensusBackground& model, const Tolerance& tolerance,
                   BitMask& mask) override {
-    onHost([&] { Cpu::trimBorder(picture, smoothed, model, tolerance, mask); }, Reads{smoothed},
-           Reads{model.noise}, Reads{model.unrest}, Changes{mask});
+    run(
+        [&] {
+          const BitTarget before = copyOf(on().read(mask));
+          const TrimmedPicture seen{on().read(picture), on().read(smoothed).planes[0]};
+          background::trimBorder(seen, on().read(model), tolerance, before, on().change(mask),
+                                 stream());
+        },
+        [&] { Cpu::trimBorder(picture, smoothed, model, tolerance, mask); }, Reads{smoothed},
+        Reads{model}, Changes{mask});
   }
   void thicken(const BitMask& mask, int margin, BitMask& out) override {
     run([&] { rg::gpu::thicken(on().read(mask), margin, on().write(out, mask.size()), stream()); },
@@ -185,26 +264,60 @@ class GpuOperations final : public Cpu, private Dispatcher {
   void followStill(const SmoothPicture& picture, const ConsensusBackground& model,
                    const Tolerance& tolerance, const BitMask& foreground, uint16_t mostAge,
                    StillPixels& still) override {
-    onHost([&] { Cpu::followStill(picture, model, tolerance, foreground, mostAge, still); },
-           Reads{picture}, Reads{model.noise}, Reads{model.unrest}, Reads{foreground},
-           Changes{still});
+    run(
+        [&] {
+          const Planes from = on().read(picture);
+          background::followStill(from, on().read(model), tolerance, on().read(foreground), mostAge,
+                                  on().change(still, from.channels), stream());
+          // The device knows no rows that it may skip: the CPU must not either.
+          std::fill(still.freshRows.begin(), still.freshRows.end(), rg::background::kFreshFrames);
+        },
+        [&] { Cpu::followStill(picture, model, tolerance, foreground, mostAge, still); },
+        Reads{picture}, Reads{model}, Reads{foreground}, Changes{still});
   }
   void findGhosts(const SmoothPicture& picture, const ConsensusBackground& model,
                   const BitMask& foreground, StillPixels& still, int leastAge,
                   BitMask& ghosts) override {
-    onHost([&] { Cpu::findGhosts(picture, model, foreground, still, leastAge, ghosts); },
-           Reads{picture}, Reads{model}, Reads{foreground}, Changes{still}, Writes{ghosts});
+    run(
+        [&] {
+          const Size size = foreground.size();
+          const GhostView view{scratchMask(size), components(size),
+                               scratch().take<ContourSums>(mostRuns(size))};
+          const Planes from = on().read(picture);
+          const BitView wanted = on().read(foreground);
+          background::findGhosts(from, on().read(model), wanted, on().change(still, from.channels),
+                                 leastAge, view, on().write(ghosts, size), stream());
+        },
+        [&] { Cpu::findGhosts(picture, model, foreground, still, leastAge, ghosts); },
+        Reads{picture}, Reads{model}, Reads{foreground}, Changes{still}, Writes{ghosts});
   }
   void addAged(const BitMask& foreground, const StillPixels& still, int64_t leastAge,
                BitMask& ghosts) override {
-    onHost([&] { Cpu::addAged(foreground, still, leastAge, ghosts); }, Reads{foreground},
-           Reads{still}, Changes{ghosts});
+    run(
+        [&] {
+          background::addAged(on().read(foreground), on().read(still), ageOf(leastAge),
+                              on().change(ghosts), stream());
+        },
+        [&] { Cpu::addAged(foreground, still, leastAge, ghosts); }, Reads{foreground}, Reads{still},
+        Changes{ghosts});
   }
   void addDisplaced(const SmoothPicture& picture, const ConsensusBackground& model,
                     const BitMask& foreground, const StillPixels& still, int64_t leastAge,
                     BitMask& moved) override {
-    onHost([&] { Cpu::addDisplaced(picture, model, foreground, still, leastAge, moved); },
-           Reads{picture}, Reads{model}, Reads{foreground}, Reads{still}, Changes{moved});
+    run(
+        [&] {
+          const int64_t runs = mostRuns(foreground.size());
+          constexpr int64_t kHistograms =
+              int64_t{2} * rg::background::kMostDisplaced * rg::background::kColours;
+          const DisplacedView view{components(foreground.size()), scratch().take<uint32_t>(runs),
+                                   scratch().take<uint32_t>(kHistograms),
+                                   scratch().take<uint32_t>(rg::background::kMostDisplaced)};
+          const BitView wanted = on().read(foreground);
+          background::addDisplaced(on().read(picture), on().read(model), wanted, on().read(still),
+                                   ageOf(leastAge), view, on().change(moved), stream());
+        },
+        [&] { Cpu::addDisplaced(picture, model, foreground, still, leastAge, moved); },
+        Reads{picture}, Reads{model}, Reads{foreground}, Reads{still}, Changes{moved});
   }
 
   void findShadows(const SmoothPicture& picture, const ShownModel& shown, const BitMask& mask,
@@ -217,22 +330,26 @@ class GpuOperations final : public Cpu, private Dispatcher {
     run([&] { keepCastShadowsOnDevice(mask, dark); }, [&] { Cpu::keepCastShadows(mask, dark); },
         Reads{mask}, Changes{dark});
   }
-  void publish(const PublishedMasks& masks, Image<uint8_t>& out) override {
-    onHost([&] { Cpu::publish(masks, out); }, Reads{masks.foreground}, Reads{masks.shadow},
-           Writes{out});
+  /// The frame waits here for the device: whoever reads the mask reads it on the host.
+  void paintForeground(const BitMask& mask, const BitMask& shadow, Point shift,
+                       Image<uint8_t>& out) override {
+    run(
+        [&] {
+          const BitView solid = on().read(mask);
+          background::paintForeground(solid, on().read(shadow), shift, on().write(out), stream());
+        },
+        [&] { Cpu::paintForeground(mask, shadow, shift, out); }, Reads{mask}, Reads{shadow},
+        Writes{out});
+    onHost([] {}, Changes{out});
   }
 
  private:
-  void smoothOnDevice(const Picture& picture, SmoothPicture& out) {
-    const Planes from = on().read(picture);
-    background::smooth(from, on().write(out, from.size(), from.channels), stream());
-  }
-  void judgeOnDevice(const SmoothPicture& picture, const ConsensusBackground& model,
-                     const Tolerance& tolerance, Verdicts& out) {
-    const Size size = picture.size();
-    const VerdictTargets verdicts{on().write(out.raw, size), on().write(out.strong, size),
-                                  on().write(out.faint, size)};
-    background::judge(on().read(picture), on().read(model), tolerance, verdicts, stream());
+  static int ageOf(int64_t age) { return static_cast<int>(std::min<int64_t>(age, UINT16_MAX + 1)); }
+
+  [[nodiscard]] Histogram levelsOf(const Image<uint8_t>& plane) {
+    return ask<Histogram>(
+        [&](Histogram* levels) { countLevels(plane.readOn(device()), levels->data(), stream()); },
+        [&] { return rg::countLevels(plane, executor()); }, Reads{plane});
   }
   void findShadowsOnDevice(const SmoothPicture& picture, const ShownModel& shown,
                            const BitMask& mask, BitMask& shadow) {

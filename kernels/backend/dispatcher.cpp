@@ -24,15 +24,27 @@ ComponentsView Dispatcher::components(Size size) const {
           scratch().take<uint32_t>(scanScratchOf(words) + 1)};
 }
 
+BitTarget Dispatcher::scratchMask(Size size) const {
+  constexpr int kAlignedWords = 8;
+  const Size words{wordsOf(size.width), size.height};
+  const int stride = (words.width + kAlignedWords - 1) / kAlignedWords * kAlignedWords;
+  return {{scratch().take<uint64_t>(int64_t{stride} * size.height), words,
+           ptrdiff_t{stride} * static_cast<ptrdiff_t>(sizeof(uint64_t))},
+          size};
+}
+
 BitTarget Dispatcher::copyOf(const BitView& mask) const {
-  auto* words = scratch().take<uint64_t>(static_cast<int64_t>(bytesOf(mask) / sizeof(uint64_t)));
-  const BitTarget copied{{words, mask.words.size, mask.words.strideBytes}, mask.size};
+  const BitTarget copied = scratchMask(mask.size);
   copy(mask, copied);
   return copied;
 }
 
 void Dispatcher::copy(const BitView& from, const BitTarget& to) const {
   runtime::copy(to.words.data, from.words.data, bytesOf(from), stream());
+}
+
+void Dispatcher::fetch(void* to, const void* from, size_t bytes) const {
+  runtime::download(to, from, bytes, stream());
 }
 
 }  // namespace rg::gpu

@@ -40,15 +40,35 @@ class Dispatcher {
     return onCpu();
   }
 
+  /// onDevice(answer) writes it to the device's memory, from where it is fetched; or what onCpu
+  /// answers.
+  template <class Answer, class OnDevice, class OnCpu, class... Accesses>
+  Answer ask(const OnDevice& onDevice, const OnCpu& onCpu, const Accesses&... accesses) {
+    Answer answer{};
+    run(
+        [&] {
+          auto* there = scratch().take<Answer>(1);
+          onDevice(there);
+          fetch(&answer, there, sizeof answer);
+        },
+        [&] { answer = onCpu(); }, accesses...);
+    return answer;
+  }
+
+  [[nodiscard]] Device& device() const { return device_; }
   [[nodiscard]] const Access& on() const { return access_; }
   [[nodiscard]] Scratch& scratch() const { return device_.scratch(); }
   [[nodiscard]] Stream stream() const { return device_.lane()->stream(); }
   [[nodiscard]] ComponentsView components(Size size) const;
+  /// In scratch, contents undefined.
+  [[nodiscard]] BitTarget scratchMask(Size size) const;
   /// In scratch.
   [[nodiscard]] BitTarget copyOf(const BitView& mask) const;
   void copy(const BitView& from, const BitTarget& to) const;
 
  private:
+  void fetch(void* to, const void* from, size_t bytes) const;
+
   template <class Call>
   bool tryTo(const Call& call) {
     try {
