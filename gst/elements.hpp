@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// The element types of the plugin. regiontrack makes its children from them, without the registry.
+// The element types of both plugins. regiontrack makes its children from them, not by the registry.
 #pragma once
 
 #include <gst/gst.h>

@@ -14,9 +14,6 @@ static gboolean pluginInit(GstPlugin* plugin) {
   isComplete &= GST_ELEMENT_REGISTER(regiontext, plugin);
   isComplete &= GST_ELEMENT_REGISTER(regiontrack, plugin);
   isComplete &= GST_ELEMENT_REGISTER(regionwrite, plugin);
-#ifdef REGIONGRAPH_HAS_OVERLAY
-  isComplete &= GST_ELEMENT_REGISTER(regionoverlay, plugin);
-#endif
   return isComplete;
 }
 

@@ -8,7 +8,7 @@ packages=(
   # build
   g++ clang meson ninja-build pkg-config git
   libgstreamer1.0-dev libgstreamer-plugins-base1.0-dev libglib2.0-dev
-  libopencv-dev libhwy-dev libtbb-dev libpng-dev
+  libopencv-dev libpango1.0-dev libhwy-dev libtbb-dev libpng-dev
   gobject-introspection libgirepository1.0-dev
   # checks and tests
   clang-format clang-tidy libclang-rt-dev libgtest-dev libgmock-dev nlohmann-json3-dev

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "gst/overlay/canvas.hpp"
 
+#include "gst/overlay/lettering.hpp"
+
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
@@ -13,10 +15,6 @@ namespace {
 
 constexpr int kOpaque = 255;
 constexpr int kRimAlpha = 150;
-
-/// Letters that are made of few strokes stay clear when they are small.
-constexpr int kFont = cv::FONT_HERSHEY_SIMPLEX;
-constexpr double kCapitalPx = 21;  // Height of its capitals at scale 1.
 
 /// Anti-aliased drawing mixes all four channels alike, which is right when the colours are
 /// multiplied by alpha.
@@ -32,21 +30,6 @@ cv::Scalar rim() {
 
 bool isLight(const graph::Colour& colour) {
   return 77 * colour.red + 150 * colour.green + 29 * colour.blue > 256 * 110;
-}
-
-struct Font {
-  double scale;
-  int thickness;
-};
-
-Font fontOf(const Style& style) {
-  return {style.textPx / kCapitalPx, std::max(1, (style.textPx + 5) / 10)};
-}
-
-cv::Size textSize(const std::string& text, const Style& style) {
-  const Font font = fontOf(style);
-  int baseline = 0;
-  return cv::getTextSize(text, kFont, font.scale, font.thickness, &baseline);
 }
 
 }  // namespace
@@ -145,19 +128,17 @@ void Canvas::disc(Point centre, int radius, const graph::Colour& colour,
 
 void Canvas::label(Point corner, const std::string& text, const graph::Colour& colour) {
   const Size ground = labelSize(text, style_);
-  const Font font = fontOf(style_);
   cv::rectangle(pixels_, cv::Rect(at(corner), cv::Size(ground.width, ground.height)), ink(colour),
                 cv::FILLED);
   const graph::Colour letters =
       isLight(colour) ? graph::Colour{0, 0, 0} : graph::Colour{255, 255, 255};
-  const Point baseline{corner.x + style_.spacePx, corner.y + ground.height - style_.spacePx - 1};
-  cv::putText(pixels_, text, at(baseline), kFont, font.scale, ink(letters), font.thickness,
-              cv::LINE_AA);
+  const cv::Point left = at({corner.x + style_.spacePx, corner.y + style_.spacePx});
+  drawLettering(pixels_, left, text, style_, letters);
 }
 
 Size labelSize(const std::string& text, const Style& style) {
-  const cv::Size letters = textSize(text, style);
-  return {letters.width + 2 * style.spacePx, style.textPx + 2 * style.spacePx + 1};
+  const Size letters = letteringSize(text, style);
+  return {letters.width + 2 * style.spacePx, letters.height + 2 * style.spacePx};
 }
 
 }  // namespace rg::overlay

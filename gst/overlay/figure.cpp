@@ -106,6 +106,7 @@ void layOut(const objects::Object& object, const Layout& layout, const Trails& t
   if (object.hasSpeed && object.state != objects::ObjectState::Stopped)
     figure.tip = fromFine(int64_t{object.centroidX} + object.speedX / 2,
                           int64_t{object.centroidY} + object.speedY / 2, map);
+  figure.label = {};
   figure.text.clear();
   if (layout.parts.ids) writeLabel(object, layout.style, figure.text);
   figure.trail.clear();
@@ -118,11 +119,27 @@ void layOut(const objects::Object& object, const Layout& layout, const Trails& t
     for (const Point& point : object.contour) figure.contour.push_back(map.point(point));
 }
 
+void layOutCaption(const std::string& text, const Layout& layout, Figure& figure) {
+  constexpr size_t kMostBytes = 256;
+  constexpr graph::Colour kGround{40, 40, 40};
+  figure = {};
+  figure.colour = kGround;
+  size_t end = std::min(text.size(), kMostBytes);
+  const auto isInside = [&](size_t i) {  // A letter of several bytes.
+    return i < text.size() && (static_cast<uint8_t>(text[i]) & 0xC0) == 0x80;
+  };
+  while (end > 0 && isInside(end)) --end;
+  figure.text.assign(text, 0, end);
+  const Size size = labelSize(figure.text, layout.style);
+  figure.label = {0, 0, size.width, size.height};
+}
+
 void placeLabels(std::span<Figure> figures, const Layout& layout) {
-  if (!layout.parts.ids) return;
-  for (size_t i = 0; i < figures.size(); ++i)
-    figures[i].label =
-        placeLabel(figures, i, labelSize(figures[i].text, layout.style), layout.map.to);
+  for (size_t i = 0; i < figures.size(); ++i) {
+    Figure& figure = figures[i];
+    if (figure.text.empty() || !figure.label.isEmpty()) continue;
+    figure.label = placeLabel(figures, i, labelSize(figure.text, layout.style), layout.map.to);
+  }
 }
 
 Box extentOf(const Figure& figure, const Layout& layout) {

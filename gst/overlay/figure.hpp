@@ -48,8 +48,11 @@ struct Layout {
 void layOut(const objects::Object& object, const Layout& layout, const Trails& trails,
             Figure& figure);
 
-/// Finds a place in the frame for each label: clear of those before it and, if there is such a
-/// place, of all boxes.
+/// A figure that is a label only, in the frame's left upper corner. Very long texts are cut off.
+void layOutCaption(const std::string& text, const Layout& layout, Figure& figure);
+
+/// Finds a place in the frame for each label that has none: clear of those before it and, if there
+/// is such a place, of all boxes.
 void placeLabels(std::span<Figure> figures, const Layout& layout);
 
 /// The part of the frame that the figure touches, lines' thickness included, the label not.

@@ -62,16 +62,24 @@ Layout Painter::layOutAll(const Scene& scene, const Views& views) {
   const Layout layout{mapBetween(madeFor, scene.frame), views, styleFor(scene.frame, views.scale)};
   figureCount_ = 0;
   extents_.clear();
+  if (!views.caption.empty()) {
+    layOutCaption(views.caption, layout, nextFigure());
+    extents_.emplace_back();
+  }
   if (!scene.objects || !views.any()) return layout;
   for (const objects::Object& object : scene.objects->objects) {
     if (!objects::isListed(object.state)) continue;
-    if (figureCount_ == figures_.size()) figures_.emplace_back();
-    Figure& figure = figures_[figureCount_++];
+    Figure& figure = nextFigure();
     layOut(object, layout, trails_, figure);
     extents_.push_back(extentOf(figure, layout));
   }
   placeLabels(figures(), layout);
   return layout;
+}
+
+Figure& Painter::nextFigure() {
+  if (figureCount_ == figures_.size()) figures_.emplace_back();
+  return figures_[figureCount_++];
 }
 
 void Painter::paintWhole(const Scene& scene, const Views& views, const Layout& layout) {

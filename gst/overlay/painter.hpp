@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace rg::overlay {
@@ -20,6 +21,7 @@ struct Views : Parts {
   bool graph = false;
   double trailLengthS = 2.0;
   double scale = 1.0;
+  std::string caption;  ///< UTF-8, in the left upper corner.
 };
 
 /// What is known of a frame; each result may be missing.
@@ -53,6 +55,7 @@ class Painter {
 
  private:
   [[nodiscard]] Layout layOutAll(const Scene& scene, const Views& views);
+  [[nodiscard]] Figure& nextFigure();
   [[nodiscard]] std::span<Figure> figures() { return {figures_.data(), figureCount_}; }
   void paintWhole(const Scene& scene, const Views& views, const Layout& layout);
   void paintEach(const Layout& layout);

@@ -135,6 +135,53 @@ TEST(Style, GrowsWithTheFrame) {
   EXPECT_GE(styleFor({1, 1}, 0.25).textPx, 7);
 }
 
+/// The pixels of a label with this text.
+std::vector<uint32_t> lettering(const std::string& text, Size* size = nullptr) {
+  const Style style = styleFor(kSize, 1);
+  const Size ground = labelSize(text, style);
+  if (size) *size = ground;
+  Image<uint32_t> image;
+  image.resize({ground.width, ground.height});
+  Canvas(image.view(), {0, 0}, style).label({0, 0}, text, {255, 255, 255});
+  std::vector<uint32_t> pixels;
+  for (int y = 0; y < ground.height; ++y)
+    pixels.insert(pixels.end(), image.view().row(y), image.view().row(y) + ground.width);
+  return pixels;
+}
+
+TEST(Lettering, EachLetterOfAnyScriptHasAShapeOfItsOwn) {
+  const char* const names[] = {"Süd", "Sod", "Säd", "Šid", "Юг", "Ух", "Νότος"};
+  for (const char* name : names)
+    for (const char* other : names)
+      EXPECT_EQ(lettering(name) == lettering(other), name == other) << name << ' ' << other;
+}
+
+TEST(Lettering, ALetterOfTwoBytesIsOneLetterWide) {
+  Size two, one;
+  lettering("ü", &one);
+  lettering("üü", &two);
+  const int space = styleFor(kSize, 1).spacePx;
+  EXPECT_NEAR(two.width - 2 * space, 2 * (one.width - 2 * space), 1);
+  EXPECT_LT(one.width, 20);
+}
+
+TEST(Lettering, LiesOnItsGroundInBlack) {
+  for (const char* text : {"123", "Süd"}) {
+    const auto pixels = lettering(text);
+    EXPECT_TRUE(std::all_of(pixels.begin(), pixels.end(),
+                            [](uint32_t pixel) { return pixel >> 24 == 255; }));
+    EXPECT_GT(std::count(pixels.begin(), pixels.end(), 0xFFFFFFFF), 50) << text;
+    EXPECT_TRUE(std::any_of(pixels.begin(), pixels.end(), [](uint32_t pixel) {
+      return (pixel & 0xFF) < 80;
+    })) << text;
+  }
+}
+
+TEST(Lettering, TakesBytesThatAreNoText) {
+  EXPECT_FALSE(lettering("\xC3\x28\xFF").empty());
+  EXPECT_FALSE(lettering("two\nlines ü").empty());
+}
+
 TEST(Painter, HasNothingToDrawWithoutObjects) {
   Painter painter;
   EXPECT_FALSE(painter.paint({kSize}, {}));
@@ -184,6 +231,32 @@ TEST(Painter, NeverDrawsMoreThanTheFrame) {
   const auto composition = painter.paint({kSize, 25, list.get()}, {});
   ASSERT_TRUE(composition);
   EXPECT_EQ(areaOf(composition), kSize.area());
+}
+
+TEST(Painter, DrawsACaptionThatLabelsKeepClearOf) {
+  Painter painter;
+  Views views;
+  views.caption = "Straße Süd";
+  const Box corner{0, 0, labelSize(views.caption, styleFor(kSize, 1)).width,
+                   labelSize(views.caption, styleFor(kSize, 1)).height};
+  const auto alone = painter.paint({kSize}, views);
+  ASSERT_TRUE(alone);
+  EXPECT_EQ(rectanglesOf(alone), std::vector<Box>{corner});
+  const auto list = objects(kSize, {object(1, {0, corner.height + 2, 40, 80})});
+  const auto both = painter.paint({kSize, 25, list.get()}, views);
+  ASSERT_TRUE(both);
+  const auto boxes = rectanglesOf(both);
+  ASSERT_EQ(boxes.size(), 3u);  // The object, and over it the caption and the label.
+  EXPECT_EQ(boxes[1], corner);
+  EXPECT_TRUE(intersect(boxes[1], boxes[2]).isEmpty());
+}
+
+TEST(Painter, CutsALongCaptionBetweenLetters) {
+  std::string text;
+  for (int i = 0; i < 10'000; ++i) text += "ß";
+  Figure figure;
+  layOutCaption("a" + text, {{kSize, kSize}, {}, styleFor(kSize, 1)}, figure);
+  EXPECT_EQ(figure.text, ("a" + text).substr(0, 255));
 }
 
 TEST(Painter, SurvivesBoxesFarOutside) {

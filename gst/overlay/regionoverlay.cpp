@@ -5,7 +5,8 @@
  *
  * Draws what the elements before it found: objects' boxes with their numbers and states, the ways
  * that they came and go, their outlines, and the region graph. Boxes are dashed while an object is
- * hidden and only corners while it has stopped. Lines and letters grow with the frame.
+ * hidden and only corners while it has stopped. Lines and letters grow with the frame. A caption,
+ * such as the camera's name, may be in any script that the machine has a font for.
  *
  * The drawing is attached as GstVideoOverlayComposition where downstream asks for that in its
  * allocation query (a sink that draws it itself); otherwise it is blended into the frames.
@@ -67,6 +68,9 @@ constexpr std::array kProperties{
     property<Settings, &Settings::scale>(
         "scale", "Size of lines and letters, as a factor of the size that suits the frame's height",
         0.25, 8),
+    property<Settings, &Settings::caption>(
+        "caption",
+        "Text in the left upper corner, such as the camera's name; at most 256 bytes of UTF-8"),
     enumProperty<Settings, &Settings::background>("background", "What becomes of the background",
                                                   backgroundType),
 };
