@@ -15,7 +15,8 @@ read -r -a setup_arguments <<<"${MESON_ARGS:-}"
 if [[ -f $build/build.ninja ]]; then
   ((${#setup_arguments[@]} == 0)) || meson configure "$build" "${setup_arguments[@]}"
 else
-  meson setup "$build" "$root" "${setup_arguments[@]}"
+  # What packagers are not to be held to.
+  meson setup "$build" "$root" -Dwerror=true -Doptimization=3 "${setup_arguments[@]}"
 fi
 ninja -C "$build"
 

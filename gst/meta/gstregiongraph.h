@@ -11,11 +11,14 @@
  *
  * The functions may be called from any thread while the buffer is alive. An index out of range
  * gives FALSE and leaves the output as it was.
+ *
+ * Since: 0.1, but for what says otherwise.
  */
 #ifndef GST_REGION_GRAPH_H
 #define GST_REGION_GRAPH_H
 
 #include "gstregiontypes.h"
+#include "gstregionversion.h"
 
 #include <gst/gst.h>
 
