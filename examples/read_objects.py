@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Reads the objects of a video from the standard GstVideoRegionOfInterestMeta.
+"""Reads the objects of a video from the standard GstVideoRegionOfInterestMeta: their numbers are in
+the param object_id.
 
 usage: read_objects.py VIDEO
 
@@ -49,7 +50,8 @@ def roi_metas(buffer):
 
 def print_objects(frame, buffer):
     for meta in roi_metas(buffer):
-        print(f'frame {frame}  {GLib.quark_to_string(meta.roi_type)} {meta.id}  '
+        number = meta.get_param('object_id').get_int('id').value
+        print(f'frame {frame}  {GLib.quark_to_string(meta.roi_type)} {number}  '
               f'{meta.w}x{meta.h} at {meta.x},{meta.y}')
 
 

@@ -237,13 +237,14 @@ class MrfMerge final : public ChainedFilter<Settings, objects::Stage, motion::Mo
   }
 
   void publish(GstBuffer* buffer, std::shared_ptr<const objects::Objects> objects) {
-    addRoiMetas(buffer, info_, *objects);
+    roiMetas_.add(buffer, info_, *objects);
     messages_.tell(*objects, {GST_VIDEO_INFO_WIDTH(&info_), GST_VIDEO_INFO_HEIGHT(&info_)},
                    momentOf(buffer));
     attachResult<objects::Objects>(buffer, std::move(objects));
   }
 
   ObjectMessages messages_;
+  RoiMetas roiMetas_;
   objects::ResultPacker packer_;
   struct Told {
     Status status = Status::Skipped;

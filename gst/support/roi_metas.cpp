@@ -8,11 +8,6 @@
 namespace rg {
 namespace {
 
-bool isPresent(objects::ObjectState state) {
-  return state == objects::ObjectState::Tracked || state == objects::ObjectState::Stopped ||
-         state == objects::ObjectState::Occluded;
-}
-
 void addParams(GstVideoRegionOfInterestMeta* roi, const objects::Object& object, const Box& box,
                Size size) {
   const double width = size.width, height = size.height;
@@ -28,17 +23,20 @@ void addParams(GstVideoRegionOfInterestMeta* roi, const objects::Object& object,
 
 }  // namespace
 
-void addRoiMetas(GstBuffer* buffer, const GstVideoInfo& info, const objects::Objects& objects) {
+void RoiMetas::add(GstBuffer* buffer, const GstVideoInfo& info, const objects::Objects& objects) {
+  const GQuark type = g_quark_from_static_string("object");
   const Size frame{GST_VIDEO_INFO_WIDTH(&info), GST_VIDEO_INFO_HEIGHT(&info)};
   const FrameMap map = mapBetween(objects.size, frame);
+  detections_.begin(buffer, objects);
   for (const objects::Object& object : objects.objects) {
     const Box box = intersect(map.box(object.box), boundsOf(frame));
-    if (!isPresent(object.state) || box.isEmpty()) continue;
-    auto* roi = gst_buffer_add_video_region_of_interest_meta(
-        buffer, "object", static_cast<guint>(box.x), static_cast<guint>(box.y),
+    if (!objects::isListed(object.state) || box.isEmpty()) continue;
+    detections_.add(object, type, box);
+    auto* roi = gst_buffer_add_video_region_of_interest_meta_id(
+        buffer, type, static_cast<guint>(box.x), static_cast<guint>(box.y),
         static_cast<guint>(box.width), static_cast<guint>(box.height));
-    roi->id = static_cast<gint>(object.id);
-    if (!object.parents.empty()) roi->parent_id = static_cast<gint>(object.parents.front());
+    roi->id = detections_.idOf(object.id);
+    if (!object.parents.empty()) roi->parent_id = detections_.idOf(object.parents.front());
     addParams(roi, object, box, frame);
   }
 }

@@ -3,14 +3,21 @@
 #pragma once
 
 #include "core/objects/objects.hpp"
+#include "gst/support/detections.hpp"
 
 #include <gst/video/video.h>
 
 namespace rg {
 
-/// Adds one meta of type "object" for each object that is tracked, stopped or occluded, clipped to
-/// the frame. Its id and its param "object_id" are the object's number, its param "detection" the
-/// box in shares of the frame, as DL Streamer writes them.
-void addRoiMetas(GstBuffer* buffer, const GstVideoInfo& info, const objects::Objects& objects);
+class RoiMetas {
+ public:
+  /// Adds one meta of type "object" for each object that is tracked, stopped or occluded, clipped
+  /// to the frame, as DL Streamer writes them. Its param "object_id" is the object's number, its
+  /// param "detection" the box in shares of the frame; its id is Detections::idOf().
+  void add(GstBuffer* buffer, const GstVideoInfo& info, const objects::Objects& objects);
+
+ private:
+  Detections detections_;
+};
 
 }  // namespace rg

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "gst/support/detections.hpp"
+
+#include <gst/analytics/analytics.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace rg {
+namespace {
+
+template <class List>
+auto find(List& list, uint64_t number) {
+  const auto at = std::lower_bound(list.begin(), list.end(), number,
+                                   [](const auto& seen, uint64_t id) { return seen.number < id; });
+  return at != list.end() && at->number == number ? &*at : nullptr;
+}
+
+}  // namespace
+
+/// Numbers begin anew with a stream, and then times may too.
+void Detections::begin(GstBuffer* buffer, const objects::Objects& objects) {
+  buffer_ = buffer;
+  const GstClockTime now = GST_BUFFER_PTS(buffer);
+  std::swap(seen_, before_);
+  seen_.clear();
+  for (const objects::Object& object : objects.objects) {
+    const Seen* before = find(before_, object.id);
+    const bool isKnown = before && object.ageFrames > 1 && before->first <= now;
+    seen_.push_back({object.id, isKnown ? before->first : now, 0});
+  }
+}
+
+void Detections::add(const objects::Object& object, GQuark type, const Box& box) {
+  Seen* seen = find(seen_, object.id);
+  if (!seen) return;
+  GstAnalyticsRelationMeta* meta = gst_buffer_get_analytics_relation_meta(buffer_);
+  if (!meta) meta = gst_buffer_add_analytics_relation_meta(buffer_);
+  GstAnalyticsODMtd detection;
+  GstAnalyticsTrackingMtd tracking;
+  if (!gst_analytics_relation_meta_add_od_mtd(meta, type, box.x, box.y, box.width, box.height, 1.0F,
+                                              &detection) ||
+      !gst_analytics_relation_meta_add_tracking_mtd(meta, object.id, seen->first, &tracking))
+    return;
+  gst_analytics_tracking_mtd_update_last_seen(&tracking, GST_BUFFER_PTS(buffer_));
+  gst_analytics_relation_meta_set_relation(meta, GST_ANALYTICS_REL_TYPE_RELATE_TO, detection.id,
+                                           tracking.id);
+  seen->detection = static_cast<gint>(detection.id);
+}
+
+gint Detections::idOf(uint64_t number) const {
+  const Seen* seen = find(seen_, number);
+  return seen ? seen->detection : 0;
+}
+
+}  // namespace rg
