@@ -28,7 +28,9 @@ G_BEGIN_DECLS
 #define GST_REGION_API extern
 #endif
 
-/* The metas' types, for allocation queries and for iterating over a buffer's metas. */
+/* The metas' types, for allocation queries and for iterating over a buffer's metas. From GStreamer
+ * 1.24 on metas go along with buffers to other processes; who receives them without an element of
+ * the plugin asks for the types first. */
 GST_REGION_API GType gst_region_foreground_meta_api_get_type(void);
 GST_REGION_API GType gst_region_labels_meta_api_get_type(void);
 GST_REGION_API GType gst_region_graph_meta_api_get_type(void);

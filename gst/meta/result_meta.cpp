@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Registration of the five metas, and what happens to them when buffers are copied or scaled.
+// Registration of the five metas, and what happens to them when buffers are copied, scaled or sent
+// elsewhere.
 #include "gst/meta/result_meta.hpp"
+
+#include "gst/meta/stored_result.hpp"
 
 #include <gst/video/gstvideometa.h>
 
@@ -38,29 +41,84 @@ GType registerApi(const char* name) {
   return gst_meta_api_type_register(name, tags);
 }
 
+#if GST_CHECK_VERSION(1, 24, 0)
+template <class Payload>
+gboolean serializeMeta(const GstMeta* meta, GstByteArrayInterface* data, guint8* version) {
+  const auto& result = reinterpret_cast<const ResultMeta<Payload>*>(meta)->result;
+  *version = kStoredVersion;
+  try {
+    const std::vector<uint8_t> bytes = result ? store(*result) : std::vector<uint8_t>();
+    return result && gst_byte_array_interface_append_data(data, bytes.data(), bytes.size());
+  } catch (const std::bad_alloc&) {
+    return FALSE;
+  }
+}
+
+bool joinWhatIsThere(background::Foreground&, GstBuffer*) {
+  return true;
+}
+bool joinWhatIsThere(segmentation::Labels& labels, GstBuffer* buffer) {
+  return join(labels, findResult<background::Foreground>(buffer));
+}
+bool joinWhatIsThere(graph::Graph& graph, GstBuffer* buffer) {
+  return join(graph, findResult<segmentation::Labels>(buffer));
+}
+bool joinWhatIsThere(motion::Motion& motion, GstBuffer* buffer) {
+  return join(motion, findResult<graph::Graph>(buffer));
+}
+bool joinWhatIsThere(objects::Objects& objects, GstBuffer* buffer) {
+  return join(objects, findResult<motion::Motion>(buffer));
+}
+
+template <class Payload>
+GstMeta* deserializeMeta(const GstMetaInfo* info, GstBuffer* buffer, const guint8* data, gsize size,
+                         guint8 version) {
+  if (version != kStoredVersion) return nullptr;
+  try {
+    auto result = restore<Payload>({data, size});
+    if (!result || !joinWhatIsThere(*result, buffer)) return nullptr;
+    attachResult<Payload>(buffer, std::move(result));
+    return gst_buffer_get_meta(buffer, info->api);
+  } catch (const std::bad_alloc&) {
+    return nullptr;
+  }
+}
+
+template <class Payload>
+const GstMetaInfo* registerInfo(GType api, const char* name) {
+  GstMetaInfo* info = gst_meta_info_new(api, name, sizeof(ResultMeta<Payload>));
+  info->init_func = initMeta<Payload>;
+  info->free_func = freeMeta<Payload>;
+  info->transform_func = transformMeta<Payload>;
+  info->serialize_func = serializeMeta<Payload>;
+  info->deserialize_func = deserializeMeta<Payload>;
+  return gst_meta_info_register(info);
+}
+#else
 template <class Payload>
 const GstMetaInfo* registerInfo(GType api, const char* name) {
   return gst_meta_register(api, name, sizeof(ResultMeta<Payload>), initMeta<Payload>,
                            freeMeta<Payload>, transformMeta<Payload>);
 }
+#endif
 
 }  // namespace
 }  // namespace rg
 
-#define RG_DEFINE_META(lower, room, Payload)                                          \
-  GType gst_region_##lower##_meta_api_get_type(void) {                                \
-    static const GType type = rg::registerApi("GstRegion" #Payload "MetaAPI");        \
-    return type;                                                                      \
-  }                                                                                   \
-  const GstMetaInfo* gst_region_##lower##_meta_get_info(void) {                       \
-    static const GstMetaInfo* const info = rg::registerInfo<rg::room::Payload>(       \
-        gst_region_##lower##_meta_api_get_type(), "GstRegion" #Payload "Meta");       \
-    return info;                                                                      \
-  }                                                                                   \
-  GstRegion##Payload##Meta* gst_buffer_get_region_##lower##_meta(GstBuffer* buffer) { \
-    g_return_val_if_fail(GST_IS_BUFFER(buffer), nullptr);                             \
-    return reinterpret_cast<GstRegion##Payload##Meta*>(                               \
-        gst_buffer_get_meta(buffer, gst_region_##lower##_meta_api_get_type()));       \
+/// Who knows the type knows the meta: a program asks for it before buffers come from elsewhere.
+#define RG_DEFINE_META(lower, room, Payload)                                           \
+  GType gst_region_##lower##_meta_api_get_type(void) {                                 \
+    return gst_region_##lower##_meta_get_info()->api;                                  \
+  }                                                                                    \
+  const GstMetaInfo* gst_region_##lower##_meta_get_info(void) {                        \
+    static const GstMetaInfo* const info = rg::registerInfo<rg::room::Payload>(        \
+        rg::registerApi("GstRegion" #Payload "MetaAPI"), "GstRegion" #Payload "Meta"); \
+    return info;                                                                       \
+  }                                                                                    \
+  GstRegion##Payload##Meta* gst_buffer_get_region_##lower##_meta(GstBuffer* buffer) {  \
+    g_return_val_if_fail(GST_IS_BUFFER(buffer), nullptr);                              \
+    return reinterpret_cast<GstRegion##Payload##Meta*>(                                \
+        gst_buffer_get_meta(buffer, gst_region_##lower##_meta_api_get_type()));        \
   }
 
 RG_DEFINE_META(foreground, background, Foreground)

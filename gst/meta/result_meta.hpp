@@ -52,6 +52,15 @@ inline const GstMetaInfo* metaInfo<objects::Objects>() {
   return gst_region_objects_meta_get_info();
 }
 
+/// So that they are known to buffers that come from elsewhere before anybody has asked for one.
+inline void registerMetas() {
+  metaInfo<background::Foreground>();
+  metaInfo<segmentation::Labels>();
+  metaInfo<graph::Graph>();
+  metaInfo<motion::Motion>();
+  metaInfo<objects::Objects>();
+}
+
 /// The result on a buffer, null where there is none.
 template <class Payload>
 [[nodiscard]] std::shared_ptr<const Payload> findResult(GstBuffer* buffer) {

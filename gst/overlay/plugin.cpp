@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "gst/elements.hpp"
+#include "gst/meta/result_meta.hpp"
 
 #include <gst/gst.h>
 
 static gboolean pluginInit(GstPlugin* plugin) {
+  rg::registerMetas();
   return GST_ELEMENT_REGISTER(regionoverlay, plugin);
 }
 

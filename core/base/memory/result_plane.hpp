@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace rg {
@@ -38,6 +39,14 @@ class ResultPlane : public Image<T> {
     scratch.resize(static_cast<size_t>(size_.width));
     unpackRow(y, scratch.data());
     return scratch.data();
+  }
+
+  /// What came from elsewhere, for readers only. Takes the pixels.
+  void takePacked(Image<T> pixels) {
+    *this = {};
+    isPacked_ = true;
+    size_ = pixels.size();
+    whole_ = std::move(pixels);
   }
 
   void copyFrom(const ResultPlane& other) {
