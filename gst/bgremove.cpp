@@ -15,6 +15,7 @@
 #include "core/text/text.hpp"
 #include "gst/elements.hpp"
 #include "gst/support/interest_mask.hpp"
+#include "gst/support/origin.hpp"
 #include "gst/support/pixel_filter.hpp"
 #include "gst/support/timed_message.hpp"
 
@@ -62,7 +63,7 @@ GType thresholdSourceType() {
   return type;
 }
 
-struct Settings : PixelSettings, background::Params, InterestSettings {};
+struct Settings : PixelSettings, background::Params, InterestSettings, OriginSettings {};
 
 constexpr std::array kProperties{
     enumProperty<Settings, &Settings::method>("method", "How the background is modelled",
@@ -114,6 +115,8 @@ constexpr std::array kProperties{
         "threshold-from",
         "What method=frame-difference takes its threshold from, where threshold is 0",
         thresholdSourceType),
+    sourceProperty<Settings>(),
+    tagsProperty<Settings>(),
     threadsProperty<Settings>(),
     statsProperty<Settings>(),
     badBuffersProperty<Settings>(),
@@ -164,7 +167,7 @@ class BgRemove final : public PixelFilter<Settings, background::Stage> {
       attachSkipped<background::Foreground>(frame);
     } else if (auto picture = load(frame)) {
       auto result = stage().process(*std::move(picture), settings, frame.time);
-      if (result) tell((*result)->scene, frame.buffer);
+      if (result) tell((*result)->scene, momentOf(frame.buffer, settings.origin));
       attach<background::Foreground>(frame, std::move(result));
     } else {
       attach<background::Foreground>(frame, picture.error());
@@ -203,14 +206,14 @@ class BgRemove final : public PixelFilter<Settings, background::Stage> {
     return {state, text.data()};
   }
 
-  void tell(const background::Scene& scene, GstBuffer* buffer) {
+  void tell(const background::Scene& scene, const FrameMoment& moment) {
     const char* name = messageOf(scene.event);
     if (!name) return;
     GstStructure* fields = gst_structure_new_empty(name);
     if (scene.event == background::SceneEvent::TooDark ||
         scene.event == background::SceneEvent::BrightAgain)
       gst_structure_set(fields, "dark", G_TYPE_BOOLEAN, scene.isDark, nullptr);
-    postTimedMessage(element(), category(), momentOf(buffer), fields);
+    postTimedMessage(element(), category(), moment, fields);
   }
 
   InterestMask interest_;

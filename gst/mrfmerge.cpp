@@ -8,13 +8,14 @@
  * is the object's number and whose params hold DL Streamer's "detection" and "object_id".
  *
  * What happens is told by element messages, each with the fields pts, stream-time and running-time,
- * and utc (text, RFC 3339) where the frames have a capture time: regiongraph-object-new and
- * regiongraph-object-end (id, state, and the box as x, y, w, h in pixels; the last known ones at
- * the end), regiongraph-merge and regiongraph-split (ids, states, and the box round all of them),
- * regiongraph-background-motion (moving, dx, dy: pixels since the previous frame) and
- * regiongraph-scene-changed. Things that touch and part several times a second are told once: a
- * merge or split that follows another one of the same objects within two seconds is told when it
- * has lasted as long. The events in the objects' meta and in regionwrite's lines are all of them.
+ * utc (text, RFC 3339) where the frames have a capture time, and source and tags (a structure of
+ * texts) where these properties are set: regiongraph-object-new and regiongraph-object-end (id,
+ * state, and the box as x, y, w, h in pixels; the last known ones at the end), regiongraph-merge
+ * and regiongraph-split (ids, states, and the box round all of them), regiongraph-background-motion
+ * (moving, dx, dy: pixels since the previous frame) and regiongraph-scene-changed. Things that
+ * touch and part several times a second are told once: a merge or split that follows another one of
+ * the same objects within two seconds is told when it has lasted as long. The events in the
+ * objects' meta and in regionwrite's lines are all of them.
  *
  * Where tens of thousands of regions are asked for and one touches most of the others, the search
  * for the best groups is ended early, so that a frame's time stays in proportion to its regions;
@@ -34,6 +35,7 @@
 #include "gst/elements.hpp"
 #include "gst/support/frame_hold.hpp"
 #include "gst/support/object_messages.hpp"
+#include "gst/support/origin.hpp"
 #include "gst/support/roi_metas.hpp"
 #include "gst/support/stage_filter.hpp"
 
@@ -51,7 +53,7 @@ namespace {
 
 constexpr int kManyStanding = 10;
 
-struct Settings : StageSettings, objects::Params {
+struct Settings : StageSettings, objects::Params, OriginSettings {
   double latencyS = 0.0;
 };
 
@@ -96,6 +98,8 @@ constexpr std::array kProperties{
         "was hidden. Reported to the pipeline. At most 600 frames are held, and 2 GiB with what is "
         "known of them",
         0, 10, Mutable::Ready),
+    sourceProperty<Settings>(),
+    tagsProperty<Settings>(),
     threadsProperty<Settings>(),
     statsProperty<Settings>(),
 };
@@ -239,7 +243,7 @@ class MrfMerge final : public ChainedFilter<Settings, objects::Stage, motion::Mo
   void publish(GstBuffer* buffer, std::shared_ptr<const objects::Objects> objects) {
     roiMetas_.add(buffer, info_, *objects);
     messages_.tell(*objects, {GST_VIDEO_INFO_WIDTH(&info_), GST_VIDEO_INFO_HEIGHT(&info_)},
-                   momentOf(buffer));
+                   momentOf(buffer, currentSettings().origin));
     attachResult<objects::Objects>(buffer, std::move(objects));
   }
 

@@ -19,6 +19,7 @@
  */
 #include "gst/elements.hpp"
 #include "gst/support/line_filter.hpp"
+#include "gst/support/origin.hpp"
 
 #include <array>
 #include <string>
@@ -42,7 +43,7 @@ GType formatType() {
   return type;
 }
 
-struct Settings {
+struct Settings : OriginSettings {
   LineFormat format = LineFormat::JsonLines;
   bool hasContours = false;
 };
@@ -52,6 +53,8 @@ constexpr std::array kProperties{
     property<Settings, &Settings::hasContours>(
         "contours",
         "format=jsonl: also tell each object's outline, in pixels; the lines get much longer"),
+    sourceProperty<Settings>(),
+    tagsProperty<Settings>(),
 };
 
 /// A buffer with a copy of the text.
@@ -89,7 +92,8 @@ class RegionText final : public LineFilter {
   GstFlowReturn process(const FilterFrame& frame) override {
     const Settings settings = snapshot(settings_);
     line_.clear();
-    return appendLines(line_, frame, {settings.format, settings.hasContours});
+    return appendLines(line_, frame,
+                       {settings.format, settings.hasContours, settings.origin.get()});
   }
 
   GstBuffer* render(GstBuffer* frame) override {

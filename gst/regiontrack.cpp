@@ -4,7 +4,8 @@
  * @title: regiontrack
  *
  * bgremove ! hsvsegment ! srg ! prmmotion ! mrfmerge in one element, for applications that take
- * one. Its properties are those of the five, under their own names. The children have the names of
+ * one. Its properties are those of the five, under their own names; one that several have is set
+ * for all of them. The children have the names of
  * their elements and can be reached through GstChildProxy as well; one that is none is an error
  * when the bin starts. Element messages come from the children.
  *
@@ -42,14 +43,10 @@ constexpr std::array kChildren{
     Child{"mrfmerge", gst_region_mrfmerge_get_type},
 };
 
-constexpr const char* kThreadsBlurb =
-    "Threads that each of the five elements works with; 0 = as many as there are cores, never more";
-constexpr guint kThreadsId = 1;
-
-/// A property of one child alone, which the bin has too.
+/// A property of some of the children, which the bin has too.
 struct Proxied {
-  size_t child = 0;
   const Property* property = nullptr;
+  std::array<bool, kChildren.size()> isOf{};
 };
 
 /// Filled with the class. In an array, as there may be no memory.
@@ -77,31 +74,32 @@ RegionTrack& trackOf(gpointer instance) {
   return reinterpret_cast<Instance*>(instance)->track;
 }
 
-GObject* childOf(GObject* bin, guint id) {
-  return G_OBJECT(trackOf(bin).children[proxied.list[id - kThreadsId - 1].child]);
+/// The children that have a property, in their order; no more of them once visit() says false.
+template <class Visit>
+void visitChildren(GObject* bin, guint id, Visit visit) {
+  const auto& isOf = proxied.list[id - 1].isOf;
+  for (size_t i = 0; i < isOf.size(); ++i)
+    if (isOf[i] && !visit(G_OBJECT(trackOf(bin).children[i]))) return;
 }
 
-/// All children have it, and refuse it alike.
-void setThreads(const RegionTrack& track, const GValue* value) {
-  for (GstElement* child : track.children) {
-    int before = 0;
-    g_object_set_property(G_OBJECT(child), "threads", value);
-    g_object_get(child, "threads", &before, nullptr);
-    if (before != g_value_get_int(value)) return;
-  }
-}
-
+/// Children refuse alike: what one has refused is not told to the others.
 void setProperty(GObject* object, guint id, const GValue* value, GParamSpec* spec) {
-  if (id == kThreadsId)
-    setThreads(trackOf(object), value);
-  else
-    g_object_set_property(childOf(object, id), spec->name, value);
+  visitChildren(object, id, [&](GObject* child) {
+    g_object_set_property(child, spec->name, value);
+    GValue set = G_VALUE_INIT;
+    g_value_init(&set, spec->value_type);
+    g_object_get_property(child, spec->name, &set);
+    const bool isTaken = g_param_values_cmp(spec, value, &set) == 0;
+    g_value_unset(&set);
+    return isTaken;
+  });
 }
 
 void getProperty(GObject* object, guint id, GValue* value, GParamSpec* spec) {
-  GObject* child =
-      id == kThreadsId ? G_OBJECT(trackOf(object).children.front()) : childOf(object, id);
-  g_object_get_property(child, spec->name, value);
+  visitChildren(object, id, [&](GObject* child) {
+    g_object_get_property(child, spec->name, value);
+    return false;
+  });
 }
 
 void finalize(GObject* object) {
@@ -109,24 +107,24 @@ void finalize(GObject* object) {
   G_OBJECT_CLASS(parentClass)->finalize(object);
 }
 
-/// The properties that one child alone has and that can be set. Nobody steps their controllers.
+/// The properties of the children that can be set; one that several have is one here. Nobody steps
+/// their controllers.
 void installProxied(GObjectClass* klass) {
-  const auto children = [](const Property& property) {
-    return std::count_if(kChildren.begin(), kChildren.end(), [&](const Child& child) {
-      const auto& all = descriptionOf(child.type()).properties;
-      return std::any_of(all.begin(), all.end(), [&](const Property& other) {
-        return std::string_view(other.name) == property.name;
-      });
-    });
-  };
   for (size_t i = 0; i < kChildren.size(); ++i) {
     const FilterDescription& about = descriptionOf(kChildren[i].type());
     for (const Property& property : about.properties) {
-      if (property.when == Mutable::Never || children(property) > 1) continue;
+      if (property.when == Mutable::Never) continue;
+      Proxied* const end = proxied.list.data() + proxied.count;
+      Proxied* const known = std::find_if(proxied.list.data(), end, [&](const Proxied& other) {
+        return std::string_view(other.property->name) == property.name;
+      });
+      known->isOf[i] = true;
+      if (known != end) continue;
+      ++proxied.count;
       g_assert(proxied.count < proxied.list.size());
-      proxied.list[proxied.count++] = {i, &property};
+      known->property = &property;
       const auto flags = static_cast<GParamFlags>(flagsOf(property.when) & ~GST_PARAM_CONTROLLABLE);
-      g_object_class_install_property(klass, kThreadsId + proxied.count,
+      g_object_class_install_property(klass, proxied.count,
                                       property.makeSpec(property, about.defaults, flags));
     }
   }
@@ -197,9 +195,6 @@ void initClass(gpointer klass, gpointer) {
   object->set_property = setProperty;
   object->get_property = getProperty;
   object->finalize = finalize;
-  g_object_class_install_property(
-      object, kThreadsId,
-      g_param_spec_int("threads", "threads", kThreadsBlurb, 0, 1024, 0, flagsOf(Mutable::Ready)));
   installProxied(object);
 
   auto* element = GST_ELEMENT_CLASS(klass);

@@ -34,6 +34,7 @@
 #include "gst/elements.hpp"
 #include "gst/support/line_filter.hpp"
 #include "gst/support/line_writer.hpp"
+#include "gst/support/origin.hpp"
 
 #include <algorithm>
 #include <array>
@@ -75,7 +76,7 @@ GType dropType() {
   return type;
 }
 
-struct Settings {
+struct Settings : OriginSettings {
   std::string location = "-";
   LineFormat format = LineFormat::JsonLines;
   bool hasContours = false;
@@ -100,6 +101,8 @@ constexpr std::array kProperties{
     property<Settings, &Settings::hasContours>(
         "contours",
         "format=jsonl: also write each object's outline, in pixels; the lines get much longer"),
+    sourceProperty<Settings>(),
+    tagsProperty<Settings>(),
     enumProperty<Settings, &Settings::drop>(
         "drop",
         "Whether frames go on when their lines can't be written in time, since more than 4 MiB "
@@ -189,7 +192,8 @@ class RegionWrite final : public LineFilter {
     if (frame.isFirst) isLive_ = isUpstreamLive();
     const Settings settings = snapshot(settings_);
     lines_.clear();
-    const GstFlowReturn flow = appendLines(lines_, frame, {format_, settings.hasContours});
+    const GstFlowReturn flow =
+        appendLines(lines_, frame, {format_, settings.hasContours, settings.origin.get()});
     if (flow != GST_FLOW_OK || lines_.empty()) return flow;
     mayDrop_ = settings.drop == Drop::True || (settings.drop == Drop::Auto && isLive_);
     writer_->push(lines_, frame.time.ns, mayDrop_ ? Crowded::Drop : Crowded::Wait,

@@ -124,7 +124,7 @@ void appendGraph(std::string& out, const objects::Objects& objects, const FrameS
   const FrameMap map = mapBetween(objects.size, stamp.size);
   const bool hasGraph = objects.motion && objects.motion->graph && !objects.regionGroup.empty();
   const graph::Graph* graph = hasGraph ? objects.motion->graph.get() : nullptr;
-  appendHead(out, objects.status, stamp, kGraphSchemaVersion);
+  appendHead(out, objects.status, stamp, kGraphSchema);
   appendTotals(out, objects, graph);
   out += ",\"regions\":[";
   for (size_t i = 0; graph && i < graph->regions.size(); ++i) {

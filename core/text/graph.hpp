@@ -7,11 +7,10 @@
 #include "core/text/line.hpp"
 
 #include <string>
-#include <string_view>
 
 namespace rg::text {
 
-inline constexpr std::string_view kGraphSchemaVersion = "1.1";
+inline constexpr SchemaVersions kGraphSchema{"1.1", "1.2"};
 
 /// Appends one line: the frame's energy, its regions in the order of their labels with what they
 /// were expected to be and became, and its arcs with what each adds to the energy and whether it

@@ -78,7 +78,7 @@ void appendEvent(std::string& out, const objects::Event& event) {
 void appendJson(std::string& out, const objects::Objects& objects, const FrameStamp& stamp,
                 Contours contours) {
   const FrameMap map = mapBetween(objects.size, stamp.size);
-  appendHead(out, objects.status, stamp, kJsonSchemaVersion);
+  appendHead(out, objects.status, stamp, kJsonSchema);
   out += ',';
   appendPair(out, "camera", map.x(objects.cameraDx), map.y(objects.cameraDy),
              objects::kPositionUnit);

@@ -6,12 +6,11 @@
 #include "core/text/line.hpp"
 
 #include <string>
-#include <string_view>
 
 namespace rg::text {
 
 /// Changes with the schema: the second number when fields are added, the first when one changes.
-inline constexpr std::string_view kJsonSchemaVersion = "1.0";
+inline constexpr SchemaVersions kJsonSchema{"1.0", "1.1"};
 
 enum class Contours : uint8_t { Omit, Write };
 

@@ -4,11 +4,48 @@
 #include "core/text/names.hpp"
 
 namespace rg::text {
+namespace {
+
+constexpr std::string_view kHexDigits = "0123456789abcdef";
+
+void appendOrigin(std::string& out, const Origin& origin) {
+  if (!origin.source.empty()) {
+    out += ',';
+    appendText(out, "source", origin.source);
+  }
+  if (origin.tags.empty()) return;
+  out += ",\"tags\":{";
+  for (const auto& [key, value] : origin.tags) {
+    appendText(out, key, value);
+    out += ',';
+  }
+  out.back() = '}';
+}
+
+}  // namespace
 
 void appendKey(std::string& out, std::string_view key) {
   out += '"';
   out += key;
   out += "\":";
+}
+
+void appendText(std::string& out, std::string_view key, std::string_view text) {
+  appendKey(out, key);
+  out += '"';
+  for (const char c : text) {
+    if (c == '"' || c == '\\') {
+      out += '\\';
+      out += c;
+    } else if (static_cast<unsigned char>(c) < 0x20) {
+      out += "\\u00";
+      out += kHexDigits[static_cast<size_t>(c) >> 4];
+      out += kHexDigits[static_cast<size_t>(c) & 15];
+    } else {
+      out += c;
+    }
+  }
+  out += '"';
 }
 
 void appendWord(std::string& out, std::string_view key, std::string_view word) {
@@ -48,11 +85,10 @@ void appendBox(std::string& out, const Box& box) {
 }
 
 void appendColour(std::string& out, const graph::Colour& colour) {
-  constexpr std::string_view kHex = "0123456789abcdef";
   out += "\"colour\":\"#";
   for (const uint8_t channel : {colour.red, colour.green, colour.blue}) {
-    out += kHex[channel >> 4];
-    out += kHex[channel & 15];
+    out += kHexDigits[channel >> 4];
+    out += kHexDigits[channel & 15];
   }
   out += '"';
 }
@@ -61,9 +97,11 @@ void appendComma(std::string& out) {
   if (out.back() != '[') out += ',';
 }
 
-void appendHead(std::string& out, Status status, const FrameStamp& stamp, std::string_view schema) {
+void appendHead(std::string& out, Status status, const FrameStamp& stamp,
+                const SchemaVersions& schema) {
   out += '{';
-  appendWord(out, "schema", schema);
+  appendWord(out, "schema", stamp.origin ? schema.withOrigin : schema.usual);
+  if (stamp.origin) appendOrigin(out, *stamp.origin);
   out += ",\"frame\":";
   appendUnsigned(out, stamp.number);
   out += ",\"pts\":";

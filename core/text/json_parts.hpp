@@ -16,6 +16,8 @@ namespace rg::text {
 inline constexpr int kJsonDecimals = 2;  ///< A hundredth of a pixel: finer than any is known.
 
 void appendKey(std::string& out, std::string_view key);
+/// Any UTF-8, escaped.
+void appendText(std::string& out, std::string_view key, std::string_view text);
 /// Only for words that need no escape.
 void appendWord(std::string& out, std::string_view key, std::string_view word);
 void appendNumber(std::string& out, std::string_view key, int64_t value);
@@ -31,6 +33,7 @@ void appendColour(std::string& out, const graph::Colour& colour);
 void appendComma(std::string& out);
 
 /// The opened line up to "resolution".
-void appendHead(std::string& out, Status status, const FrameStamp& stamp, std::string_view schema);
+void appendHead(std::string& out, Status status, const FrameStamp& stamp,
+                const SchemaVersions& schema);
 
 }  // namespace rg::text

@@ -6,19 +6,27 @@
 #pragma once
 
 #include "core/base/geometry.hpp"
+#include "core/text/origin.hpp"
 
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace rg::text {
 
 /// The frame that a result is written for.
 struct FrameStamp {
-  uint64_t number = 1;            ///< Counts from 1.
-  Size size;                      ///< Of the frame now; coordinates are mapped to it.
-  std::optional<uint64_t> ptsNs;  ///< Presentation time, nanoseconds.
-  std::optional<uint64_t> utcNs;  ///< When it was taken, nanoseconds since 1970, if known.
+  uint64_t number = 1;             ///< Counts from 1.
+  Size size;                       ///< Of the frame now; coordinates are mapped to it.
+  std::optional<uint64_t> ptsNs;   ///< Presentation time, nanoseconds.
+  std::optional<uint64_t> utcNs;   ///< When it was taken, nanoseconds since 1970, if known.
+  const Origin* origin = nullptr;  ///< Where it comes from, if that is to be told; not empty.
+};
+
+/// The versions of a schema that JSON lines name: the oldest one that describes the line.
+struct SchemaVersions {
+  std::string_view usual, withOrigin;
 };
 
 void appendInteger(std::string& out, int64_t value);

@@ -7,4 +7,5 @@
 #include "core/text/line.hpp"
 #include "core/text/mot.hpp"
 #include "core/text/names.hpp"
+#include "core/text/origin.hpp"
 #include "core/text/regions.hpp"

@@ -7,6 +7,7 @@
 #include "gst/support/lost_results.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 #include <tuple>
 #include <utility>
 
@@ -69,23 +70,25 @@ struct FilterShell {
     }
   }
 
+  static void warnUnchanged(GObject* object, const GParamSpec* spec, const char* reason) {
+    GST_ELEMENT_WARNING(object, RESOURCE, SETTINGS, ("%s stays as it was: %s.", spec->name, reason),
+                        (nullptr));
+  }
+
   static void setProperty(GObject* object, guint id, const GValue* value, GParamSpec* spec) {
     Filter* filter = filterOf(object);
     if (!filter) return;
-    bool isInForce = false;
     try {
       const Property& property = classOf(object)->description->properties[id - 1];
       const std::lock_guard lock(filter->settingsMutex());
-      isInForce = filter->isRunning_ && property.when == Mutable::Ready;
-      if (!isInForce) property.set(filter->settings(), value);
-      if (!isInForce) return;
+      const bool isInForce = filter->isRunning_ && property.when == Mutable::Ready;
+      if (!isInForce) return property.set(filter->settings(), value);
+    } catch (const std::invalid_argument& reason) {
+      return warnUnchanged(object, spec, reason.what());
     } catch (...) {  // Only a text needs memory.
+      return warnUnchanged(object, spec, "out of memory");
     }
-    GST_ELEMENT_WARNING(
-        object, RESOURCE, SETTINGS,
-        ("%s stays as it was: %s.", g_param_spec_get_name(spec),
-         isInForce ? "it can change in the states NULL and READY only" : "out of memory"),
-        (nullptr));
+    warnUnchanged(object, spec, "it can change in the states NULL and READY only");
   }
 
   static void getProperty(GObject* object, guint id, GValue* value, GParamSpec*) {

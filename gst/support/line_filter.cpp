@@ -7,7 +7,8 @@ namespace rg {
 
 GstFlowReturn LineFilter::appendLines(std::string& out, const FilterFrame& frame,
                                       const Lines& lines) {
-  const text::FrameStamp stamp = stampOf(frame);
+  text::FrameStamp stamp = stampOf(frame);
+  stamp.origin = lines.origin;
   return lines.format == LineFormat::Regions ? appendRegions(out, frame, stamp)
                                              : appendObjects(out, frame, stamp, lines);
 }

@@ -20,6 +20,7 @@ class LineFilter : public StageFilter {
   struct Lines {
     LineFormat format = LineFormat::JsonLines;
     bool hasContours = false;
+    const text::Origin* origin = nullptr;  ///< Told in JSON; null: none.
   };
 
   void restartCount() { frames_ = 0; }

@@ -21,7 +21,7 @@ inline constexpr size_t kMostTextBytes = size_t{1} << 20;
 enum class Mutable { Playing, Ready, Never };
 
 /// One property of an element whose values live in a struct of settings. Its default is what a
-/// fresh struct holds.
+/// fresh struct holds. Where `set` throws std::invalid_argument the element says why it is refused.
 struct Property {
   const char* name;
   const char* blurb;

@@ -6,11 +6,12 @@
 #include "gst/support/foreign_enum.hpp"
 
 #include <string>
+#include <utility>
 
 namespace rg {
 
-FrameMoment momentOf(GstBuffer* frame) {
-  return {GST_BUFFER_PTS(frame), captureTimeOf(frame)};
+FrameMoment momentOf(GstBuffer* frame, OriginPtr origin) {
+  return {GST_BUFFER_PTS(frame), captureTimeOf(frame), std::move(origin)};
 }
 
 void postTimedMessage(GstBaseTransform* element, GstDebugCategory* category,
@@ -32,6 +33,7 @@ void postTimedMessage(GstBaseTransform* element, GstDebugCategory* category,
     text::appendUtc(utc, *moment.utcNs);
     gst_structure_set(fields, "utc", G_TYPE_STRING, utc.c_str(), nullptr);
   }
+  setOrigin(fields, moment.origin);
   GST_CAT_DEBUG_OBJECT(category, element, "%" GST_PTR_FORMAT, static_cast<gpointer>(fields));
   gst_element_post_message(GST_ELEMENT(element),
                            gst_message_new_element(GST_OBJECT(element), fields));

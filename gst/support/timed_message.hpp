@@ -2,6 +2,8 @@
 // Element messages that say when the frame is that they tell of.
 #pragma once
 
+#include "gst/support/origin.hpp"
+
 #include <gst/base/gstbasetransform.h>
 
 #include <cstdint>
@@ -9,15 +11,16 @@
 
 namespace rg {
 
-/// When a frame is shown and when it was taken.
+/// When a frame is shown, when it was taken, and where.
 struct FrameMoment {
   GstClockTime pts = GST_CLOCK_TIME_NONE;
   std::optional<uint64_t> utcNs;
+  OriginPtr origin;
 };
-[[nodiscard]] FrameMoment momentOf(GstBuffer* frame);
+[[nodiscard]] FrameMoment momentOf(GstBuffer* frame, OriginPtr origin);
 
 /// Posts in the element's name, with pts, stream-time and running-time added, and with utc where
-/// the stream tells it. Takes the structure.
+/// the stream tells it, source and tags where they are set. Takes the structure.
 void postTimedMessage(GstBaseTransform* element, GstDebugCategory* category,
                       const FrameMoment& moment, GstStructure* fields);
 

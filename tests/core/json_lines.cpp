@@ -62,6 +62,9 @@ objects::Objects makeExtremes() {
   return objects;
 }
 
+const text::Origin kOrigin{"gate \"3\"\n\\ caf\u00e9", {{"site", "north"}, {"a.b-c_1", "\t"}}};
+const text::Origin kTagged{{}, {{"site", ""}}};
+
 constexpr auto kLatest = std::numeric_limits<uint64_t>::max();
 
 /// Three regions: 1 and 2 are merged, 3 moves otherwise.
@@ -103,7 +106,8 @@ void printGraphs() {
   text::appendGraph(out, makeGraph(100, 20, 700), {3, {640, 360}, 0, 1'763'722'800'000'000'001});
   text::appendGraph(out, makeGraph(1u << 28, 1024, int64_t{1} << 46),
                     {kLatest, {16384, 16384}, kLatest, kLatest});
-  text::appendGraph(out, makeGrounded(700), {4, {320, 240}, 0, {}});
+  text::appendGraph(out, makeGrounded(700), {4, {320, 240}, 0, {}, &kOrigin});
+  text::appendGraph(out, {}, {4, {320, 240}, 0, {}, &kTagged});
   text::appendGraph(out, makeGrounded(int64_t{1} << 46), {5, {320, 240}, 0, {}});
   std::cout << out;
 }
@@ -118,6 +122,8 @@ void printObjects() {
     text::appendJson(out, objects, {2, {320, 240}, 40'000'000, {}}, Contours::Omit);
     text::appendJson(out, objects, {3, {640, 360}, 0, 1'763'722'800'000'000'001}, Contours::Write);
   }
+  text::appendJson(out, objects, {4, {320, 240}, 0, {}, &kOrigin}, Contours::Omit);
+  text::appendJson(out, {}, {5, {320, 240}, 0, {}, &kTagged}, Contours::Omit);
   text::appendJson(out, makeExtremes(), {kLatest, {16384, 16384}, kLatest, kLatest},
                    Contours::Write);
   std::cout << out;

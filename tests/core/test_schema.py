@@ -29,7 +29,9 @@ def put(key, value):
 HEAD = [drop(key) for key in ('schema', 'frame', 'pts', 'status', 'resolution')]
 HEAD += [put('schema', '2.0'), put('frame', 0), put('frame', 1.5), put('pts', -1), put('pts', '0'),
          put('utc', '2026-11-21 11:00:00'), put('status', 'fine'),
-         put('resolution', {'width': 0, 'height': 1}), put('extra', 1)]
+         put('resolution', {'width': 0, 'height': 1}), put('extra', 1), put('source', ''),
+         put('source', 7), put('tags', {}), put('tags', {'1a': 'b'}), put('tags', {'a': 1}),
+         put('tags', 'a=b')]
 SPOILT_FRAMES = HEAD + [drop('camera'), drop('objects'), drop('events'), put('camera', {'x': 0}),
                         put('objects', {})]
 SPOILT_GRAPHS = HEAD + [drop('energy'), drop('regions'), drop('arcs'), put('energy', {'total': 0}),
@@ -55,11 +57,23 @@ LISTS = {'objects': ('object', SPOILT_OBJECTS), 'events': ('event', SPOILT_EVENT
          'regions': ('region', SPOILT_REGIONS), 'arcs': ('arc', SPOILT_ARCS)}
 
 
+# What only a line of the newer version may have, and what it has to.
+def other_version(line):
+    has_origin = 'source' in line or 'tags' in line
+    copied = copy.deepcopy(line)
+    for key in ('source', 'tags'):
+        copied.pop(key, None)
+    if not has_origin:
+        copied['source'] = 'gate'
+    return copied
+
+
 def spoilt(line):
     """Copies of the line with one fault each, and what the fault is."""
     parts = [('frame', lambda copied: copied, SPOILT_GRAPHS if 'arcs' in line else SPOILT_FRAMES)]
     parts += [(name, lambda copied, key=key: copied[key][-1], faults)
               for key, (name, faults) in LISTS.items() if line.get(key)]
+    yield 'frame of the other version', other_version(line)
     for name, part, faults in parts:
         for what, spoil in faults:
             copied = copy.deepcopy(line)
@@ -73,7 +87,7 @@ def main():
         schema = json.load(file)
     jsonschema.Draft202012Validator.check_schema(schema)
     validator = jsonschema.Draft202012Validator(schema)
-    output = subprocess.run(writer, check=True, capture_output=True).stdout.decode('ascii')
+    output = subprocess.run(writer, check=True, capture_output=True).stdout.decode('utf-8')
     lines = [json.loads(line) for line in output.splitlines()]
     findings = []
     for number, line in enumerate(lines, 1):
@@ -82,7 +96,8 @@ def main():
         findings += [f'line {number}: the schema accepts a line with this fault: {what}'
                      for what, bad in spoilt(line) if validator.is_valid(bad)]
     sizes = {len(json.dumps(line)) for line in lines}
-    if len(sizes) < 3 or not any('utc' in line for line in lines):
+    if len(sizes) < 3 or any(all(key not in line for line in lines)
+                             for key in ('utc', 'source', 'tags')):
         findings.append('the lines do not show all that the writer can do')
     print('\n'.join(findings) or f'{len(lines)} lines agree with {schema["$id"]}')
     sys.exit(bool(findings))

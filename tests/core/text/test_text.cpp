@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "core/text/graph.hpp"
 #include "core/text/json.hpp"
 #include "core/text/line.hpp"
 #include "core/text/mot.hpp"
@@ -115,6 +116,46 @@ TEST(Json, GivesTheTimeOfDayOnlyWhenItIsKnown) {
   EXPECT_EQ(json({}, {1, {1, 1}, 5, {}}).find("utc"), std::string::npos);
   EXPECT_NE(json({}, {1, {1, 1}, 5, 1}).find(R"("pts":5,"utc":"1970-01-01T00:00:00.000000001Z",)"),
             std::string::npos);
+}
+
+TEST(Json, TellsTheOriginWhereItIsKnown) {
+  const Origin gate{"gate 3", {{"site", "north"}, {"lane", "7"}}}, tagged{"", {{"a", ""}}};
+  EXPECT_EQ(json({}, {1, {16, 9}, {}, {}, &gate}).substr(0, 95),
+            R"({"schema":"1.1","source":"gate 3","tags":{"site":"north","lane":"7"},)"
+            R"("frame":1,"pts":null,"stat)");
+  EXPECT_TRUE(json({}, {1, {16, 9}, {}, {}, &tagged})
+                  .starts_with(R"({"schema":"1.1","tags":{"a":""},"frame":1,)"));
+  std::string graph;
+  appendGraph(graph, {}, {1, {16, 9}, {}, {}, &gate});
+  EXPECT_TRUE(graph.starts_with(R"({"schema":"1.2","source":"gate 3","tags":{"site":)"));
+}
+
+TEST(Json, EscapesWhatWouldEndItsTexts) {
+  const Origin origin{"a\"b\\c\n\x01\u00e9/", {}};
+  EXPECT_TRUE(json({}, {1, {16, 9}, {}, {}, &origin})
+                  .starts_with("{\"schema\":\"1.1\",\"source\":"
+                               "\"a\\\"b\\\\c\\u000a\\u0001\u00e9/\","));
+}
+
+TEST(Tags, AreReadInTheirOrder) {
+  const auto tags = parseTags(R"( site = north gate , lane=7,note="a, \"b\" \\", none=)");
+  ASSERT_TRUE(tags) << tags.error().message;
+  const Tags expected{{"site", "north gate"}, {"lane", "7"}, {"note", R"(a, "b" \)"}, {"none", ""}};
+  EXPECT_EQ(*tags, expected);
+  EXPECT_TRUE(parseTags(" ") && parseTags("")->empty());
+}
+
+TEST(Tags, ThatAreNoneSayWhere) {
+  const std::pair<const char*, const char*> kWrong[] = {
+      {"site", "character 5"},     {"=north", "character 1"},   {"7=a", "character 1"},
+      {"a=1, a=2", "character 6"}, {"a=1,", "character 5"},     {"a=\"b", "not closed"},
+      {"a=\"b\" c", "a comma"},    {"a b=1", "character 3"},    {"a=\"b\\", "not closed"},
+      {",a=1", "character 1"},     {"a=1,,b=2", "character 5"}, {"\xc3\xa9=1", "character 1"}};
+  for (const auto& [text, where] : kWrong) {
+    const auto tags = parseTags(text);
+    ASSERT_FALSE(tags) << text;
+    EXPECT_NE(tags.error().message.find(where), std::string::npos) << tags.error().message;
+  }
 }
 
 TEST(Json, MapsToTheSizeOfTheFrame) {
