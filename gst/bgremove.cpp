@@ -14,6 +14,7 @@
 #include "core/background/background.hpp"
 #include "core/text/text.hpp"
 #include "gst/elements.hpp"
+#include "gst/support/backend.hpp"
 #include "gst/support/interest_mask.hpp"
 #include "gst/support/origin.hpp"
 #include "gst/support/pixel_filter.hpp"
@@ -63,7 +64,11 @@ GType thresholdSourceType() {
   return type;
 }
 
-struct Settings : PixelSettings, background::Params, InterestSettings, OriginSettings {};
+struct Settings : PixelSettings,
+                  background::Params,
+                  InterestSettings,
+                  OriginSettings,
+                  BackendSettings {};
 
 constexpr std::array kProperties{
     enumProperty<Settings, &Settings::method>("method", "How the background is modelled",
@@ -118,6 +123,9 @@ constexpr std::array kProperties{
     sourceProperty<Settings>(),
     tagsProperty<Settings>(),
     threadsProperty<Settings>(),
+    backendProperty<Settings>(),
+    deviceIdProperty<Settings>(),
+    activeBackendProperty<Settings>(),
     statsProperty<Settings>(),
     badBuffersProperty<Settings>(),
 };
@@ -150,12 +158,26 @@ class BgRemove final : public PixelFilter<Settings, background::Stage> {
 
   bool start() override {
     interest_ = {};
-    inForce_ = currentSettings();
+    const Settings settings = currentSettings();
+    inForce_ = settings;
     if (const auto read = interest_.follow(inForce_); !read) {
       postError(read.error().message);
       return false;
     }
+    auto device = openBackend(settings);
+    if (!device) {
+      postError("backend=cuda: " + device.error().message + ". With backend=auto the CPU does it");
+      return false;
+    }
+    use(*std::move(device));
+    hasToldFailure_ = false;
+    tellBackend(nameOfBackend(settings));
     return PixelFilter::start();
+  }
+  void stop() override {
+    PixelFilter::stop();
+    use(nullptr);
+    tellBackend({});
   }
 
   GstFlowReturn process(const FilterFrame& frame) override {
@@ -167,6 +189,7 @@ class BgRemove final : public PixelFilter<Settings, background::Stage> {
       attachSkipped<background::Foreground>(frame);
     } else if (auto picture = load(frame)) {
       auto result = stage().process(*std::move(picture), settings, frame.time);
+      followBackend(settings);
       if (result) tell((*result)->scene, momentOf(frame.buffer, settings.origin));
       attach<background::Foreground>(frame, std::move(result));
     } else {
@@ -189,6 +212,25 @@ class BgRemove final : public PixelFilter<Settings, background::Stage> {
       inForce_ = wanted;
     }
     return settings;
+  }
+
+  /// Only method hybrid has kernels.
+  [[nodiscard]] std::string nameOfBackend(const Settings& settings) const {
+    const bool isOnDevice =
+        device() && device()->isUp() && settings.method == background::Method::Hybrid;
+    return isOnDevice ? "cuda: " + device()->name() : "cpu";
+  }
+  void tellBackend(std::string name) {
+    const std::lock_guard lock(settingsMutex());
+    settings_.activeBackend = std::move(name);
+  }
+  void followBackend(const Settings& settings) {
+    if (!device()) return;
+    tellBackend(nameOfBackend(settings));
+    const DeviceError* error = device()->error();
+    if (error == nullptr || std::exchange(hasToldFailure_, true)) return;
+    postWarning("The CUDA device failed: " + std::string(error->what()) + ". The CPU goes on" +
+                (error->isLost() ? ", with a new background model." : " where it was."));
   }
 
   [[nodiscard]] Progress describe(const FilterFrame& frame) override {
@@ -218,6 +260,7 @@ class BgRemove final : public PixelFilter<Settings, background::Stage> {
 
   InterestMask interest_;
   InterestSettings inForce_;
+  bool hasToldFailure_ = false;  ///< Since the start.
 };
 
 const Settings kDefaults;

@@ -42,8 +42,8 @@ class StageFilter : public Filter {
   using Filter::Filter;
 
  protected:
-  [[nodiscard]] Context makeContext(int threads) const {
-    return {std::make_shared<const Executor>(threads), nullptr};
+  [[nodiscard]] static Context makeContext(int threads, std::shared_ptr<Device> device) {
+    return {std::make_shared<const Executor>(threads), std::move(device)};
   }
 
   /// The result that `producer` attaches. Missing on
@@ -145,7 +145,7 @@ class StageOwner : public StageFilter {
     (void)this->takeSkipped();
     progress_.restart();
     forgetStats();
-    const Context context = makeContext(currentSettings().threads);
+    const Context context = makeContext(currentSettings().threads, device_);
     executor_ = context.cpu;
     stage_ = makeStage_(context);
     return true;
@@ -175,6 +175,9 @@ class StageOwner : public StageFilter {
   [[nodiscard]] Settings currentSettings() { return snapshot(settings_); }
   [[nodiscard]] Stage& stage() { return *stage_; }
   [[nodiscard]] const Executor& executor() const { return *executor_; }
+  /// For the stage that start() makes.
+  void use(std::shared_ptr<Device> device) { device_ = std::move(device); }
+  [[nodiscard]] const Device* device() const { return device_.get(); }
 
   Settings settings_;
 
@@ -187,6 +190,7 @@ class StageOwner : public StageFilter {
   ProgressLog progress_;
   const Factory makeStage_;
   std::shared_ptr<const Executor> executor_;
+  std::shared_ptr<Device> device_;  ///< None: the CPU.
   std::unique_ptr<Stage> stage_;
 };
 

@@ -5,7 +5,7 @@
 
 #include "core/background/operations.hpp"
 #include "core/base/memory/device.hpp"
-#include "core/base/result.hpp"
+#include "kernels/backend/open_device.hpp"
 #include "kernels/launch.hpp"
 
 #include <cstddef>
@@ -80,8 +80,5 @@ class GpuDevice final : public Device, public rg::background::OperationsSource {
   std::shared_ptr<Lane> lane_;
   Scratch scratch_;
 };
-
-/// Number `device` of the machine's, or why it can't be used and what would help.
-[[nodiscard]] Result<std::shared_ptr<Device>> openDevice(int device);
 
 }  // namespace rg::gpu

@@ -26,7 +26,8 @@ class Camera(unittest.TestCase):
                                   cwd=folder, capture_output=True, text=True, timeout=100,
                                   check=False)
         self.assertEqual(done.returncode, 0, done.stderr)
-        told = {name: (float(ms), float(cameras)) for name, ms, cameras in LINE.findall(done.stdout)}
+        told = {name: (float(ms), float(cameras))
+                for name, ms, cameras in LINE.findall(done.stdout)}
         self.assertEqual(tuple(told), ELEMENTS)
         for ms, cameras in told.values():
             self.assertAlmostEqual(cameras * ms * 25 / 1000, 1, delta=0.1)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Whole stages with a device, which is the host here (kernels/shim): the same results, whichever of
 // its calls fails.
-#include "kernels/backend/gpu_device.hpp"
+#include "kernels/backend/open_device.hpp"
 #include "kernels/shim/block.hpp"
 #include "kernels/shim/faults.hpp"
 #include "tests/core/staged_scene.hpp"
