@@ -11,11 +11,6 @@ namespace {
 
 constexpr uint64_t kNoChoice = ~uint64_t{0};
 constexpr uint32_t kUnseen = ~uint32_t{0};
-constexpr int kMeanFractionBits = 4;
-/// Colours that differ by less than 4 grey levels: there the border's length decides.
-constexpr uint32_t kAlike = 4 << kMeanFractionBits;
-constexpr uint32_t kDistanceUnit = 16;
-
 }  // namespace
 
 void Absorption::run(const AbsorptionLimits& limits) {
@@ -53,8 +48,6 @@ void Absorption::chooseAllBelow(uint32_t areaPx) {
   for (size_t i = 0; i < regions_.size(); ++i) chooses_[i] = regions_[i].areaPx < areaPx;
 }
 
-// A ribbon of width w has about 2 / w pixels of border a pixel: thin is below a width of 1.5
-// grains.
 void Absorption::chooseThin(uint32_t grainPx) {
   perimeters_.assign(regions_.size(), 0);
   for (const AbsorbedBorder& border : borders_) {
@@ -63,7 +56,7 @@ void Absorption::chooseThin(uint32_t grainPx) {
   }
   chooses_.resize(regions_.size());
   for (size_t i = 0; i < regions_.size(); ++i)
-    chooses_[i] = uint64_t{4} * regions_[i].areaPx < uint64_t{3} * grainPx * perimeters_[i];
+    chooses_[i] = isThin(regions_[i].areaPx, perimeters_[i], grainPx);
 }
 
 // Of regions with a neighbour only: the others can't merge and would use up the count.
@@ -91,31 +84,13 @@ uint64_t Absorption::mergeRound() {
   return before - regions_.size();
 }
 
-Absorption::Mean Absorption::meanOf(const AbsorbedRegion& region) {
-  const auto mean = [&](uint64_t sum) {
-    const uint64_t fine = sum << kMeanFractionBits;
-    // Most regions are small, and a short division takes half the time.
-    return static_cast<uint16_t>(fine >> 32 == 0 ? static_cast<uint32_t>(fine) / region.areaPx
-                                                 : fine / region.areaPx);
-  };
-  return {mean(region.red), mean(region.green), mean(region.blue)};
-}
-
-// The same seen from both sides. Below (3 · (255 · 16)² + 64²) · 16 < 2^30.
-uint32_t Absorption::distance(const AbsorbedBorder& border) const {
-  const Mean& a = means_[border.a];
-  const Mean& b = means_[border.b];
-  const int red = a.red - b.red, green = a.green - b.green, blue = a.blue - b.blue;
-  const auto squares = static_cast<uint32_t>(red * red + green * green + blue * blue);
-  return (squares + kAlike * kAlike) * kDistanceUnit / border.borderPx;
-}
-
 void Absorption::findBest() {
   best_.assign(regions_.size(), kNoChoice);
   for (const AbsorbedBorder& border : borders_) {
     const bool asks = chooses_[border.a] != 0, answers = chooses_[border.b] != 0;
     if (!asks && !answers) continue;
-    const uint64_t key = uint64_t{distance(border)} << 32;
+    const uint64_t key =
+        uint64_t{distanceAcross(means_[border.a], means_[border.b], border.borderPx)} << 32;
     if (asks) best_[border.a] = std::min(best_[border.a], key | border.b);
     if (answers) best_[border.b] = std::min(best_[border.b], key | border.a);
   }

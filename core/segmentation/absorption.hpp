@@ -27,6 +27,38 @@ struct AbsorbedBorder {
   uint32_t borderPx = 0;
 };
 
+/// The mean colour of a region's pixels, in 1/16 grey levels, rounded down.
+struct MeanColour {
+  uint16_t red, green, blue;
+};
+inline constexpr int kMeanFractionBits = 4;
+[[nodiscard]] constexpr MeanColour meanOf(const AbsorbedRegion& region) {
+  const auto mean = [&](uint64_t sum) {
+    const uint64_t fine = sum << kMeanFractionBits;
+    // Most regions are small, and a short division takes half the time.
+    return static_cast<uint16_t>(fine >> 32 == 0 ? static_cast<uint32_t>(fine) / region.areaPx
+                                                 : fine / region.areaPx);
+  };
+  return {mean(region.red), mean(region.green), mean(region.blue)};
+}
+
+/// How little like each other two neighbours are: the same seen from both sides. Below
+/// (3 · (255 · 16)² + 64²) · 16 < 2^30.
+[[nodiscard]] constexpr uint32_t distanceAcross(const MeanColour& a, const MeanColour& b,
+                                                uint32_t borderPx) {
+  // Colours that differ by less than 4 grey levels: there the border's length decides.
+  constexpr uint32_t kAlike = 4 << kMeanFractionBits, kUnit = 16;
+  const int red = a.red - b.red, green = a.green - b.green, blue = a.blue - b.blue;
+  const auto squares = static_cast<uint32_t>(red * red + green * green + blue * blue);
+  return (squares + kAlike * kAlike) * kUnit / borderPx;
+}
+
+/// A ribbon of width w has about 2 / w pixels of border a pixel: thin is below a width of 1.5
+/// grains.
+[[nodiscard]] constexpr bool isThin(uint32_t areaPx, uint32_t perimeterPx, uint32_t grainPx) {
+  return uint64_t{4} * areaPx < uint64_t{3} * grainPx * perimeterPx;
+}
+
 struct AbsorptionLimits {
   uint32_t minAreaPx = 1;
   uint32_t maxRegions = 1024;
@@ -52,11 +84,6 @@ class Absorption {
   [[nodiscard]] const std::vector<AbsorbedRegion>& left() const { return regions_; }
 
  private:
-  struct Mean {
-    uint16_t red, green, blue;
-  };
-
-  [[nodiscard]] static Mean meanOf(const AbsorbedRegion& region);
   [[nodiscard]] uint64_t mergeRound();
   void chooseAllBelow(uint32_t areaPx);
   void chooseThin(uint32_t grainPx);
@@ -65,7 +92,6 @@ class Absorption {
   void contract();
   void numberKept();
   void joinBorders();
-  [[nodiscard]] uint32_t distance(const AbsorbedBorder& border) const;
 
   std::vector<AbsorbedRegion> regions_;
   std::vector<AbsorbedBorder> borders_, sorted_;
@@ -77,7 +103,7 @@ class Absorption {
   std::vector<uint32_t> parents_;  ///< Where each region goes in this round.
   std::vector<uint32_t> numbers_;  ///< New number of each region after the round.
   std::vector<uint32_t> starts_, seenAt_;
-  std::vector<Mean> means_;
+  std::vector<MeanColour> means_;
   std::vector<uint64_t> order_;
 };
 

@@ -1,44 +1,32 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/segmentation/border_pixels.hpp"
 
-#include "core/base/pixel.hpp"
+#include "core/segmentation/side_colours.hpp"
 
 #include <algorithm>
 
 namespace rg::segmentation {
 namespace {
 
-/// ⌈2^16 / n⌉: exact divisors of sums of up to nine bytes.
-constexpr uint32_t kReciprocals[] = {0, 65536, 32768, 21846, 16384, 13108, 10923, 9363, 8192, 7282};
+constexpr uint32_t kReciprocals[] = {0,
+                                     reciprocal(1),
+                                     reciprocal(2),
+                                     reciprocal(3),
+                                     reciprocal(4),
+                                     reciprocal(5),
+                                     reciprocal(6),
+                                     reciprocal(7),
+                                     reciprocal(8),
+                                     reciprocal(9)};
 
 uint8_t meanOf(uint64_t packed, int channel) {
-  const auto count = static_cast<uint32_t>(packed >> (3 * simd::kLaneBits));
-  const auto sum = static_cast<uint32_t>(packed >> (channel * simd::kLaneBits) & 0xFFFF);
-  return static_cast<uint8_t>((sum + count / 2) * kReciprocals[count] >> 16);
-}
-
-constexpr uint8_t kOneColour = 12;  // Largest difference of a channel within a pure cell.
-constexpr int kAlikeColours = 8;    // Largest difference of a channel.
-constexpr uint8_t kMargin = 5;      // Noise shall not decide: what is nearly as near stays.
-
-int farthestOf(const uint8_t* a, const uint8_t* b) {
-  return std::max({absDiff(a[0], b[0]), absDiff(a[1], b[1]), absDiff(a[2], b[2])});
+  return packedMean(packed, channel, kReciprocals[packedCount(packed)]);
 }
 
 constexpr uint64_t kApart = uint64_t{1} << 16;  // Of the keys of cells in scope apart.
 
 uint16_t idOf(uint64_t key) {
   return static_cast<uint16_t>(key & 0xFFFF);
-}
-
-/// Whether a colour is what pixels of two others mix to.
-bool lies(const uint8_t* colour, const uint8_t* one, const uint8_t* other) {
-  if (farthestOf(one, other) <= kAlikeColours) return false;
-  for (int c = 0; c < 3; ++c)
-    if (absDiff(colour[c], one[c]) + absDiff(colour[c], other[c]) >
-        absDiff(one[c], other[c]) + kAlikeColours)
-      return false;
-  return true;
 }
 
 }  // namespace
@@ -91,8 +79,8 @@ void BorderPixels::pack(int cellRow, CellLine& line) const {
   const uint16_t* ids = cellIds_.row(cellRow);
   simd::packCells({cells_.colours[0].row(cellRow), cells_.colours[1].row(cellRow),
                    cells_.colours[2].row(cellRow), cells_.ranges.row(cellRow), ids},
-                  cells_.size.width, kOneColour, line.keys.data() + 1, line.colours.data() + 1,
-                  line.pures.data() + 1);
+                  cells_.size.width, uint8_t{kOneColour}, line.keys.data() + 1,
+                  line.colours.data() + 1, line.pures.data() + 1);
   if (cells_.scope.data == nullptr) return;
   const uint8_t* scope = cells_.scope.row(cellRow);
   for (size_t x = 0; x < width; ++x)
@@ -144,7 +132,8 @@ void BorderPixels::chooseRows(int cellRow, bool isDivided, Scratch& scratch) con
     return;
   }
   simd::repeatRow(scratch.ids.data(), count, side, scratch.wideOther.data());
-  simd::PixelSides sides{{}, {}, {}, scratch.wideOwn.data(), scratch.wideOther.data(), kMargin};
+  simd::PixelSides sides{
+      {}, {}, {}, scratch.wideOwn.data(), scratch.wideOther.data(), uint8_t{kSideMargin}};
   for (size_t c = 0; c < 3; ++c) {
     sides.own[c] = scratch.wide[c].data();
     sides.other[c] = scratch.wide[c + 3].data();
@@ -218,7 +207,7 @@ void BorderPixels::refineCell(int cellX, int cellY, const simd::CellRows& lines)
   }
   cell.side = side;
   cell.rows = box.height;
-  cell.margin = kMargin;
+  cell.margin = kSideMargin;
   uint8_t choices[64];
   if (!simd::chooseColours(cell, choices) && !isMoved) return;
   for (int y = 0; y < box.height; ++y)

@@ -6,14 +6,6 @@
 namespace rg::segmentation {
 namespace {
 
-constexpr int kSmoothingReach = 16;
-constexpr uint64_t kTailShare = 8;
-constexpr uint64_t kLeastChromaticShare = 16;
-
-constexpr int wrapped(int hue) {
-  return (hue + kHueCount) % kHueCount;
-}
-
 using Sums = std::array<uint64_t, kHueCount>;
 
 Sums windowSums(const HueHistogram& histogram) {
@@ -33,7 +25,7 @@ Sums windowSums(const HueHistogram& histogram) {
 
 HueBand findBackgroundBand(const HueHistogram& histogram, uint64_t total) {
   const uint64_t chromatic = std::accumulate(histogram.begin(), histogram.end(), uint64_t{0});
-  if (chromatic == 0 || chromatic < total / kLeastChromaticShare) return {};
+  if (!isColourful(chromatic, total)) return {};
   const Sums sums = windowSums(histogram);
   const auto peak = static_cast<int>(std::max_element(sums.begin(), sums.end()) - sums.begin());
   const uint64_t least = sums[static_cast<size_t>(peak)] / kTailShare;
@@ -44,11 +36,7 @@ HueBand findBackgroundBand(const HueHistogram& histogram, uint64_t total) {
       ++count;
     return count;
   };
-  const int below = reach(-1);
-  const int above = reach(1);
-  const int count = below + 1 + above;
-  if (count > kHueCount / 2) return {};
-  return {wrapped(peak - below), count};
+  return bandRound(peak, reach(-1), reach(1));
 }
 
 }  // namespace rg::segmentation

@@ -75,6 +75,22 @@ struct HueBand {
   friend constexpr bool operator==(const HueBand&, const HueBand&) = default;
 };
 
+/// How a histogram of hues is read.
+inline constexpr int kSmoothingReach = 16;  ///< Hues on either side that a smoothed one sums up.
+inline constexpr uint32_t kTailShare = 8;
+[[nodiscard]] constexpr int wrapped(int hue) {
+  return (hue + kHueCount) % kHueCount;
+}
+[[nodiscard]] constexpr bool isColourful(uint64_t chromatic, uint64_t total) {
+  constexpr uint64_t kLeastShare = 16;
+  return chromatic > 0 && chromatic >= total / kLeastShare;
+}
+/// The band of a peak and so many hues below and above it.
+[[nodiscard]] constexpr HueBand bandRound(int peak, int below, int above) {
+  const int count = below + 1 + above;
+  return count > kHueCount / 2 ? HueBand{} : HueBand{wrapped(peak - below), count};
+}
+
 using HueHistogram = std::array<uint32_t, kHueCount>;
 
 /// The band round the histogram's peak, after smoothing by a window of 33 hues: as far as the

@@ -15,7 +15,6 @@
 namespace rg::segmentation {
 namespace {
 
-constexpr int kSampleStep = 4;
 constexpr double kDegrees = 360;
 
 HueBand widen(const HueBand& band, int margin) {
@@ -55,7 +54,7 @@ void countHues(const Picture& picture, int y, int samples, HueHistogram& histogr
   for (int first = 0; first < samples; first += kBlock) {
     const int count = std::min(samples - first, kBlock);
     for (int c = 0; c < 3; ++c)
-      for (int i = 0; i < count; ++i) colours[c][i] = rows[c][(first + i) * kSampleStep];
+      for (int i = 0; i < count; ++i) colours[c][i] = rows[c][(first + i) * kHueSampleStep];
     simd::findHueRow(colours[0], colours[1], colours[2], count, {}, hues);
     for (int i = 0; i < count; ++i)
       if (hues[i] != kAchromatic) ++histogram[static_cast<size_t>(hues[i])];
@@ -90,13 +89,13 @@ HueBands bandsOf(const HueRules& rules, const HueBand& peak) {
 
 HueBand findFrameBand(const Picture& picture, const Executor& executor) {
   if (picture.isGrey()) return {};
-  const auto samples = [](int length) { return (length + kSampleStep - 1) / kSampleStep; };
+  const auto samples = [](int length) { return (length + kHueSampleStep - 1) / kHueSampleStep; };
   const Size size{samples(picture.size().width), samples(picture.size().height)};
   HueHistogram total{};
   std::mutex mutex;  // Protects `total`; nothing is called while it is held.
   executor.forRows(size.height, [&](int first, int last) {
     HueHistogram own{};
-    for (int y = first; y < last; ++y) countHues(picture, y * kSampleStep, size.width, own);
+    for (int y = first; y < last; ++y) countHues(picture, y * kHueSampleStep, size.width, own);
     const std::lock_guard lock(mutex);
     for (size_t i = 0; i < total.size(); ++i) total[i] += own[i];
   });

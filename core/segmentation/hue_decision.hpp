@@ -22,6 +22,11 @@ inline constexpr uint8_t kBackgroundHue = 0;
 inline constexpr uint8_t kNoHue = 128;
 inline constexpr uint8_t kObjectHue = 255;
 
+/// Whether a pixel of this class is divided into regions; isForeground: other evidence says so.
+[[nodiscard]] constexpr bool isWanted(uint8_t hueClass, bool isForeground) {
+  return hueClass == kObjectHue || (hueClass == kNoHue && isForeground);
+}
+
 enum class BackgroundHue : uint8_t {
   Ignored,   ///< The background's hue decides nothing.
   FromPeak,  ///< The band round the peak of the frame's hue histogram.
@@ -58,6 +63,7 @@ struct HueBands {
   return votes > 0 ? kObjectHue : kBackgroundHue;
 }
 
+inline constexpr int kHueSampleStep = 4;
 /// The band of the background's hues: that of the histogram of every fourth pixel of every fourth
 /// row, of the whole frame whatever part of it is looked at.
 [[nodiscard]] HueBand findFrameBand(const Picture& picture, const Executor& executor);

@@ -8,10 +8,6 @@
 namespace rg::segmentation {
 namespace {
 
-/// Of the least area between rounds: pieces that the pixels at a border left mostly touch one
-/// region only, and the order in which they go matters less.
-constexpr uint32_t kPieceGrowth = 16;
-
 /// Writes whole blocks where the row goes on: what is written beyond a run is written again.
 void fillRun(const Span& run, uint16_t value, int width, uint16_t* to) {
   constexpr int kBlock = 32;

@@ -17,6 +17,10 @@
 
 namespace rg::segmentation {
 
+/// Of the least area between rounds: pieces that the pixels at a border left mostly touch one
+/// region only, and the order in which they go matters less.
+inline constexpr uint32_t kPieceGrowth = 16;
+
 class RegionDivision {
  public:
   struct Limits {

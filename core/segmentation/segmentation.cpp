@@ -10,6 +10,7 @@
 #include "core/segmentation/colour_links.hpp"
 #include "core/segmentation/pixel_runs.hpp"
 #include "core/segmentation/region_division.hpp"
+#include "core/segmentation/scopes.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -191,14 +192,8 @@ ImageView<const uint8_t> CpuSegmentation::closeGaps(const Picture& picture,
 
 ImageView<const uint8_t> CpuSegmentation::coverAreas(const background::Foreground& foreground,
                                                      uint8_t around) {
-  const Size size = foreground.mask.size();
-  scope_.resize(size);
-  scope_.fill(around);
-  for (const Box& area : foreground.areas) {
-    const Box box = coverOf(area, size);
-    for (int y = box.y; y < box.bottom(); ++y)
-      std::fill_n(scope_.row(y) + box.x, box.width, kInScope);
-  }
+  scope_.resize(foreground.mask.size());
+  segmentation::coverAreas(foreground.areas, around, scope_);
   if (foreground.interest) keepInside(*foreground.interest, scope_);
   return scope_;
 }
@@ -219,17 +214,8 @@ ImageView<const uint8_t> CpuSegmentation::decideByHue(const Picture& picture,
   decided_.resize(labels.size);
   const bool hasEvidence =
       rules.objectBand.count == 0 && foreground && foreground->mask.size() == labels.size;
-  for (int y = 0; y < labels.size.height; ++y) {
-    const uint8_t* hue = labels.hue.row(y);
-    const uint8_t* evidence = hasEvidence ? foreground->mask.row(y) : nullptr;
-    uint8_t* out = decided_.row(y);
-    for (int x = 0; x < labels.size.width; ++x) {
-      const bool isIn = hue[x] == kObjectHue || (hue[x] == kNoHue && evidence &&
-                                                 evidence[x] == background::kForegroundPixel);
-      const uint8_t own = scope.data ? scope.row(y)[x] : kInScope;
-      out[x] = isIn ? own : background::kBackgroundPixel;
-    }
-  }
+  scopeByHue(labels.hue, hasEvidence ? foreground->mask.view() : ImageView<const uint8_t>{}, scope,
+             decided_);
   return decided_;
 }
 
