@@ -84,7 +84,7 @@ double bytesOf(const BitView& mask) {
 }  // namespace
 
 void countSet(const BitView& mask, uint32_t* count, Stream stream) {
-  constexpr unsigned kWordsOfThread = 8, kMostBlocks = 264;
+  constexpr unsigned kWordsOfThread = 8;
   const auto blocks = blocksFor(mask.words.size.area(), kReduceThreads * kWordsOfThread);
   clear(count, sizeof *count, stream);
   start({"countSet",

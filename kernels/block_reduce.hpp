@@ -12,8 +12,8 @@ inline constexpr int kReduceThreads = 256;
 inline constexpr int kReduceWarps = kReduceThreads / kWarp;
 
 /// join(a, b) of all threads' values, in every thread. join must not care for the order. values: a
-/// block's array of kReduceWarps. All threads of a block of kReduceThreads must call.
-template <class T, class Array, class Join>
+/// block's array of as many as it has warps. All of its threads must call.
+template <int warps = kReduceWarps, class T, class Array, class Join>
 __device__ T reduceBlock(T value, Array& values, const Join& join) {
   for (int i = kWarp / 2; i > 0; i /= 2) {
     const T other = __shfl_xor_sync(kFullWarp, value, i);
@@ -23,7 +23,7 @@ __device__ T reduceBlock(T value, Array& values, const Join& join) {
   if (thread % kWarp == 0) values[thread / kWarp] = value;
   __syncthreads();
   T all = values[0];
-  for (int i = 1; i < kReduceWarps; ++i) {
+  for (int i = 1; i < warps; ++i) {
     const T other = values[i];
     all = join(all, other);
   }
@@ -32,8 +32,8 @@ __device__ T reduceBlock(T value, Array& values, const Join& join) {
 }
 
 /// The sum of the threads before this one in the block; `total` is that of all. warpSums: a block's
-/// array of kReduceWarps. All threads must call.
-template <class Array>
+/// array of as many as it has warps. All threads must call.
+template <int warps = kReduceWarps, class Array>
 __device__ uint32_t sumBefore(uint32_t value, Array& warpSums, uint32_t& total) {
   const int lane = static_cast<int>(threadIdx.x) % kWarp,
             warp = static_cast<int>(threadIdx.x) / kWarp;
@@ -46,7 +46,7 @@ __device__ uint32_t sumBefore(uint32_t value, Array& warpSums, uint32_t& total) 
   __syncthreads();
   uint32_t earlier = 0;
   total = 0;
-  for (int i = 0; i < kReduceWarps; ++i) {
+  for (int i = 0; i < warps; ++i) {
     const uint32_t of = warpSums[i];
     if (i < warp) earlier += of;
     total += of;

@@ -24,12 +24,14 @@ void averageCells(const Planes& smooth, ImageView<const uint8_t> scope, int side
                   const CellTargets& out, Stream stream);
 
 /// rg::segmentation::ColourLinks: links as its LinkBits. nearest is scratch, hues too, which is
-/// needed with a band and three channels only.
+/// needed with three channels only. band: in device memory, instead of that of `params`, for the
+/// host need not know it.
 struct LinkTargets {
   ImageView<uint8_t> links, nearest;
   ImageView<int16_t> hues;
 };
 void linkColours(const Planes& colours, ImageView<const uint8_t> scope,
-                 const rg::segmentation::LinkParams& params, const LinkTargets& out, Stream stream);
+                 const rg::segmentation::LinkParams& params, const rg::segmentation::HueBand* band,
+                 const LinkTargets& out, Stream stream);
 
 }  // namespace rg::gpu::segmentation

@@ -15,8 +15,7 @@ using namespace rg::segmentation;
 struct LinkJob {
   Planes colours;
   ImageView<const uint8_t> scope;
-  HueBand band;
-  bool guards;
+  const HueBand* band;
   int similarity;
   LinkTargets out;
 };
@@ -25,8 +24,9 @@ struct LinkJob {
 __global__ void findHues(const __grid_constant__ LinkJob job) {
   const Point p = pixelOfThread();
   if (!isWithin(p, job.colours.size())) return;
+  if (job.band->count == 0) return;
   const int hue = hueAt(job.colours, p);
-  const bool isInBand = hue != kAchromatic && job.band.contains(hue);
+  const bool isInBand = hue != kAchromatic && job.band->contains(hue);
   job.out.hues.at(p.x, p.y) = static_cast<int16_t>(isInBand ? hue | simd::kInBand : hue);
 }
 
@@ -46,8 +46,8 @@ __device__ int distanceOf(const LinkJob& job, Point p, Point q) {
     const ImageView<const uint8_t>& plane = job.colours.planes[c];
     most = std::max(most, absDiff(plane.at(p.x, p.y), plane.at(q.x, q.y)));
   }
-  const bool isApart =
-      job.guards && isGuarded(job.out.hues.at(p.x, p.y), job.out.hues.at(q.x, q.y));
+  const bool isApart = job.colours.channels == 3 && job.band->count > 0 &&
+                       isGuarded(job.out.hues.at(p.x, p.y), job.out.hues.at(q.x, q.y));
   return isApart || most > kFarthest ? int{kFarthest} : most;
 }
 
@@ -92,14 +92,12 @@ __global__ void linkPixels(const __grid_constant__ LinkJob job, bool joinsSingle
 }  // namespace
 
 void linkColours(const Planes& colours, ImageView<const uint8_t> scope, const LinkParams& params,
-                 const LinkTargets& out, Stream stream) {
-  const bool guards = colours.channels == 3 && params.band.count > 0;
-  const LinkJob job{
-      colours, scope, params.band, guards, std::clamp(params.similarity, 0, int{kFarthest}), out};
+                 const HueBand* band, const LinkTargets& out, Stream stream) {
+  const LinkJob job{colours, scope, band, std::clamp(params.similarity, 0, int{kFarthest}), out};
   const Size size = colours.size();
   const auto pixels = static_cast<double>(size.area());
   const double bytes = pixels * colours.channels;
-  if (guards)
+  if (colours.channels == 3)
     start(launchOver("findHues", size, 1, {bytes + 2 * pixels, 30 * pixels}), stream, findHues,
           job);
   if (params.joinsSingles)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "kernels/components.hpp"
+#include "kernels/forest.hpp"
 #include "kernels/start.hpp"
 #include "kernels/word_runs.hpp"
 
@@ -54,31 +55,6 @@ __global__ void listRuns(Wanted wanted, ComponentsView found) {
   }
 }
 
-__device__ uint32_t rootOf(const uint32_t* parents, uint32_t run) {
-  while (parents[run] != run) run = parents[run];
-  return run;
-}
-
-/// Parents only become less, so one that was read too early is still one of the ancestors; who
-/// loses a race goes on with what the winner wrote.
-__device__ void joinRuns(uint32_t* parents, uint32_t a, uint32_t b) {
-  for (;;) {
-    a = rootOf(parents, a);
-    b = rootOf(parents, b);
-    if (a == b) return;
-    const uint32_t less = isMutated(Mutant::WrongTieBreak) ? std::max(a, b) : std::min(a, b);
-    const uint32_t more = a ^ b ^ less;
-    if (isMutated(Mutant::WrongTieBreak)) {
-      parents[more] = less;
-      return;
-    }
-    const uint32_t old = atomicMin(parents + more, less);
-    if (old == more) return;
-    a = old;
-    b = less;
-  }
-}
-
 /// How many runs begin in the raster up to column x of row y.
 __device__ uint32_t runsUpTo(const Wanted& wanted, const ComponentsView& found, int x, int y) {
   const Point at{x / kWordColumns, y};
@@ -98,7 +74,7 @@ __global__ void joinRows(Wanted wanted, int reach, ComponentsView found) {
     const bool isInRun = (bits >> left % kWordColumns & 1) != 0;
     uint32_t other = runsUpTo(wanted, found, left, above) - (isInRun ? 1 : 0);
     const uint32_t last = runsUpTo(wanted, found, right, above);
-    for (; other < last; ++other) joinRuns(found.parents, run, other);
+    for (; other < last; ++other) join(found.parents, run, other);
   });
 }
 

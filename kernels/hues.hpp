@@ -13,4 +13,9 @@ void classifyHues(const Planes& picture, const rg::segmentation::HueBands& bands
                   ImageView<const uint8_t> scope, ImageView<uint8_t> raw,
                   ImageView<uint8_t> classes, Stream stream);
 
+/// rg::segmentation::findFrameBand, to device memory. Channels: red, green, blue; of a grey picture
+/// no band. levels: kHueCount counts, scratch.
+void findFrameBand(const Planes& picture, uint32_t* levels, rg::segmentation::HueBand* band,
+                   Stream stream);
+
 }  // namespace rg::gpu::segmentation

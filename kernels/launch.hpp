@@ -59,4 +59,13 @@ inline constexpr Extent kTile{32, 8, 1};
   return {name, {blocksFor(count, 256), 1, 1}, {256, 1, 1}, work};
 }
 
+/// Two blocks for each multiprocessor of a large device: more would wait.
+inline constexpr unsigned kMostBlocks = 264;
+
+/// Threads that take up to `count` things in turns: how many there are, the device knows only.
+[[nodiscard]] constexpr Launch launchInTurns(const char* name, int64_t count, const Work& work) {
+  const unsigned blocks = blocksFor(count, 256);
+  return {name, {blocks < kMostBlocks ? blocks : kMostBlocks, 1, 1}, {256, 1, 1}, work};
+}
+
 }  // namespace rg::gpu

@@ -62,6 +62,15 @@
   X(smoothColours, rg::segmentation::ColourCells, rg::gpu::segmentation::smoothColours)     \
   X(averageCells, rg::segmentation::ColourCells, rg::gpu::segmentation::averageCells)       \
   X(linkColours, rg::segmentation::ColourLinks, rg::gpu::segmentation::linkColours)         \
+  X(findFrameBand, rg::segmentation::findFrameBand, rg::gpu::segmentation::findFrameBand)   \
+  X(coverAreas, rg::segmentation::coverAreas, rg::gpu::segmentation::coverAreas)            \
+  X(scopeByHue, rg::segmentation::scopeByHue, rg::gpu::segmentation::scopeByHue)            \
+  X(groupLinked, rg::segmentation::PixelRuns, rg::gpu::segmentation::groupLinked)           \
+  X(groupLabelled, rg::segmentation::PixelRuns, rg::gpu::segmentation::groupLabelled)       \
+  X(absorb, rg::segmentation::Absorption, rg::gpu::segmentation::absorb)                    \
+  X(divideRegions, rg::segmentation::RegionDivision, rg::gpu::segmentation::divideRegions)  \
+  X(divideAgain, rg::segmentation::RegionDivision, rg::gpu::segmentation::divideAgain)      \
+  X(refineBorders, rg::segmentation::BorderPixels, rg::gpu::segmentation::refineBorders)    \
   X(padLuma, rg::motion::PaddedLuma, rg::gpu::motion::padLuma)                              \
   X(sumBoxes, rg::motion::BoxSums, rg::gpu::motion::sumBoxes)                               \
   X(searchShifts, rg::motion::searchShifts, rg::gpu::motion::searchShifts)

@@ -105,6 +105,15 @@ auto atomicOr(const Place& place, T value) {
   return changeAtomically(place, [&](T old) { return old | value; });
 }
 
+template <class Place, class T>
+auto atomicCAS(const Place& place, T expected, T value) {
+  return changeAtomically(place, [&](T old) { return old == expected ? value : old; });
+}
+
+/// Zeros above the highest set bit.
+inline int __clz(unsigned value) {
+  return std::countl_zero(value);
+}
 inline int __popcll(unsigned long long value) {
   return std::popcount(value);
 }

@@ -24,8 +24,9 @@ struct Device {
   const char* name;
   double bytesPerSecond, operationsPerSecond;
 };
-constexpr Device kDevices[] = {{"H200", 4.8e12 * 0.8, 132 * 64 * 1.98e9},
-                               {"H100", 3.35e12 * 0.8, 132 * 64 * 1.98e9}};
+constexpr int kMultiprocessors = 132;
+constexpr Device kDevices[] = {{"H200", 4.8e12 * 0.8, kMultiprocessors * 64 * 1.98e9},
+                               {"H100", 3.35e12 * 0.8, kMultiprocessors * 64 * 1.98e9}};
 constexpr double kLaunchUs = 2;  ///< Between kernels of one stream, without CUDA graphs.
 
 /// Device memory that nobody reads: in this mode kernels don't run.
@@ -108,6 +109,40 @@ void launchBackground(const Memory& m) {
   gpu::findComponents(m.bits, true, Connectivity::Eight, {}, nullptr);
 }
 
+/// Segmentation of the whole frame: of cells, then of pixels at borders.
+void launchSegmentation(const Memory& m) {
+  constexpr int kSide = 8;
+  const segmentation::RunLimits runs{UINT32_MAX / 2, 64};
+  const segmentation::RegionDivision::Limits limits{static_cast<uint32_t>(m.size.area() / 1200),
+                                                    1024};
+  const Size grid{(m.size.width + kSide - 1) / kSide, (m.size.height + kSide - 1) / kSide};
+  const gpu::Planes cells{
+      {plane<const uint8_t>(grid), plane<const uint8_t>(grid), plane<const uint8_t>(grid)}, 3};
+  const auto bytes = plane<uint8_t>(grid);
+  const auto none = ImageView<const uint8_t>{};
+  segmentation::HueBand band;
+  gpu::segmentation::findFrameBand(m.planes, nullptr, &band, nullptr);
+  gpu::segmentation::smoothColours(m.planes, m.targets, nullptr);
+  gpu::segmentation::averageCells(
+      m.planes, none, kSide,
+      {{{plane<uint8_t>(grid), plane<uint8_t>(grid), plane<uint8_t>(grid)}, 3},
+       bytes,
+       bytes,
+       bytes},
+      nullptr);
+  gpu::segmentation::linkColours(cells, none, {12, true, {}}, &band,
+                                 {bytes, bytes, plane<int16_t>(grid)}, nullptr);
+  const gpu::segmentation::GroupsView groups{};
+  gpu::segmentation::groupLinked(bytes, none, runs, kSide, groups, nullptr);
+  gpu::segmentation::divideRegions({cells, bytes, kSide}, groups, limits, {}, plane<uint16_t>(grid),
+                                   nullptr);
+  gpu::segmentation::refineBorders(
+      {cells, none, bytes, plane<uint16_t>(grid), m.planes, none, kSide}, nullptr,
+      plane<uint16_t>(m.size), nullptr);
+  gpu::segmentation::groupLabelled(plane<uint16_t>(m.size), none, groups, nullptr);
+  gpu::segmentation::divideAgain(nullptr, groups, limits, {}, plane<uint16_t>(m.size), nullptr);
+}
+
 /// 160 regions that are matched with all of their pixels, by shifts of up to 20.
 void launchSearch(const Memory& m) {
   constexpr motion::ShiftRange kRange{20, 21};
@@ -123,17 +158,24 @@ void launchSearch(const Memory& m) {
                             {nullptr, nullptr, kRegions}, nullptr, nullptr);
 }
 
-/// A frame's way through what there is of the pipeline: method hybrid, then the search for motion.
+/// A frame's way through what there is of the pipeline: method hybrid, segmentation, the search
+/// for motion.
 void launchFrame(Size size) {
   const Memory m{size};
   loadFrame(size);
   launchBackground(m);
+  launchSegmentation(m);
   launchSearch(m);
 }
 
-double microseconds(const gpu::Work& work, const Device& device) {
-  return 1e6 *
-         std::max(work.bytes / device.bytesPerSecond, work.operations / device.operationsPerSecond);
+/// Fewer blocks than multiprocessors have no more than their share of bandwidth and rate.
+double microseconds(const gpu::Launch& launch, const Device& device) {
+  const gpu::Extent& grid = launch.grid;
+  const double blocks = double{1} * grid.x * grid.y * grid.z;
+  const double share = std::min(1.0, blocks / kMultiprocessors);
+  return 1e6 / share *
+         std::max(launch.work.bytes / device.bytesPerSecond,
+                  launch.work.operations / device.operationsPerSecond);
 }
 
 /// The launches of one kernel in a frame.
@@ -152,7 +194,7 @@ std::vector<Row> rowsOfFrame() {
     auto row = std::find_if(rows.begin(), rows.end(), isSame);
     if (row == rows.end()) row = rows.insert(rows.end(), {launch});
     ++row->count;
-    for (int i = 0; i < 2; ++i) row->us[i] += microseconds(launch.work, kDevices[i]);
+    for (int i = 0; i < 2; ++i) row->us[i] += microseconds(launch, kDevices[i]);
   }
   return rows;
 }

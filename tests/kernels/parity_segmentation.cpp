@@ -3,52 +3,18 @@
 #include "core/segmentation/hue_decision.hpp"
 #include "kernels/colour_cells.hpp"
 #include "kernels/hues.hpp"
-#include "tests/kernels/parity.hpp"
-#include "tests/kernels/pictures.hpp"
+#include "kernels/scopes.hpp"
+#include "tests/kernels/divided.hpp"
 
+#include <array>
 #include <utility>
+#include <vector>
 
 namespace rg::test {
 namespace {
 
 using segmentation::ColourCells;
 using segmentation::ColourGrid;
-
-/// What is divided: all of a picture, or what is in scope and in scope apart.
-struct Divided {
-  Picture picture;
-  Image<uint8_t> scope;
-  bool hasScope;
-  [[nodiscard]] ImageView<const uint8_t> scopeView() const {
-    return hasScope ? scope.view() : ImageView<const uint8_t>{};
-  }
-};
-
-template <class Check>
-void forDivided(const Check& check) {
-  forSizesAndFills([&](Size size, int fill) {
-    for (const bool isGrey : {false, true})
-      for (const bool hasScope : {false, true}) {
-        Divided divided{{}, Image<uint8_t>(size), hasScope};
-        loadScene(size, fill, 1, isGrey, divided.picture);
-        for (int y = 0; y < size.height; ++y)
-          for (int x = 0; x < size.width; ++x) {
-            // Kinds follow blocks of 8x8, which no cell leaves.
-            const uint8_t kind = hashOf(x / 8, y / 8, 4) % 3 == 0 ? kInScopeApart : kInScope;
-            divided.scope.at(x, y) = hashOf(x / 3, y / 3, 5) % 3 == 0 ? uint8_t{128} : kind;
-          }
-        check(divided);
-      }
-  });
-}
-
-gpu::Planes inOrder(const Picture& picture) {
-  return {{picture.red(), picture.green(), picture.blue()}, picture.isGrey() ? 1 : 3};
-}
-
-gpu::Planes planesOf(const ColourGrid& grid) {
-  return {{grid.colours[0], grid.colours[1], grid.colours[2]}, grid.channels};
-}
 
 /// Where `scope` has something in it.
 void expectInScope(Plane<uint8_t>& found, ImageView<const uint8_t> expected,
@@ -110,9 +76,78 @@ void parity_linkColours() {
       Plane<uint8_t> out(size), nearest(size);
       Plane<int16_t> hues(size);
       gpu::segmentation::linkColours(planesOf(cells.pixels()), divided.scopeView(), params,
-                                     {out, nearest, hues}, nullptr);
+                                     &params.band, {out, nearest, hues}, nullptr);
       const ptrdiff_t stride = size.height > 1 ? links.links(1) - links.links(0) : size.width;
       out.expect({links.links(0), size, stride}, "links");
+    }
+  });
+}
+
+void parity_findFrameBand() {
+  int bands = 0;
+  const auto check = [&](const Picture& picture) {
+    std::vector<uint32_t> levels(segmentation::kHueCount, 0xA5A5A5A5);
+    segmentation::HueBand band{-1, -1};
+    gpu::segmentation::findFrameBand(inOrder(picture), levels.data(), &band, nullptr);
+    const segmentation::HueBand expected = segmentation::findFrameBand(picture, oneThread());
+    ASSERT_EQ(band, expected);
+    bands += expected.count > 0;
+  };
+  forDivided([&](const Divided& divided) { check(divided.picture); });
+  // Pictures of one hue, with noise: peaks at all places of the circle.
+  for (int i = 0; i < 12; ++i) {
+    Image<uint8_t> packed({3 * 150, 70});
+    for (int y = 0; y < 70; ++y)
+      for (int x = 0; x < 150; ++x)
+        for (int c = 0; c < 3; ++c)
+          packed.at(3 * x + c, y) = static_cast<uint8_t>(
+              (i + c) % 3 == 0 ? 40
+                               : 60 + 12 * (i % 4) * c + static_cast<int>(hashOf(x, y, 3) % 9));
+    Picture picture;
+    loadPacked(packed, false, picture);
+    check(picture);
+  }
+  EXPECT_GT(bands, 0);
+}
+
+void parity_coverAreas() {
+  for (const Size size : kSizes)
+    for (const int count : {0, 1, 7, 300}) {
+      std::vector<Box> areas;
+      std::vector<Component> list;
+      for (int i = 0; i < count; ++i) {
+        const auto draw = [&](uint32_t what, int most) {
+          return static_cast<int>(hashOf(i, size.width, what) % static_cast<uint32_t>(most));
+        };
+        const int x = draw(1, size.width), y = draw(2, size.height);
+        const Box box{x, y, 1 + draw(3, size.width - x), 1 + draw(4, size.height - y)};
+        areas.push_back(box);
+        list.push_back({box, 0, 0});
+      }
+      Image<uint8_t> expected(size);
+      segmentation::coverAreas(areas, kInScopeApart, expected);
+      Plane<uint8_t> out(size);
+      const auto device = static_cast<uint32_t>(count);
+      gpu::segmentation::coverAreas({list.data(), &device}, kInScopeApart, out, nullptr);
+      out.expect(std::as_const(expected).view(), "areas");
+    }
+}
+
+void parity_scopeByHue() {
+  forDivided([](const Divided& divided) {
+    const Size size = divided.picture.size();
+    Image<uint8_t> hue(size), expected(size);
+    for (int y = 0; y < size.height; ++y)
+      for (int x = 0; x < size.width; ++x)
+        hue.at(x, y) = static_cast<uint8_t>(std::array{0, 128, 255}[hashOf(x, y, 8) % 3]);
+    const Image<uint8_t> seen = filled(size, 2);
+    for (const bool hasEvidence : {false, true}) {
+      const ImageView<const uint8_t> evidence =
+          hasEvidence ? seen.view() : ImageView<const uint8_t>{};
+      segmentation::scopeByHue(hue, evidence, divided.scopeView(), expected);
+      Plane<uint8_t> out(size);
+      gpu::segmentation::scopeByHue(hue, evidence, divided.scopeView(), out, nullptr);
+      out.expect(std::as_const(expected).view(), "scope");
     }
   });
 }

@@ -9,8 +9,19 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 
 namespace rg::test {
+
+/// Grey pixels, or red, green and blue of each in turn.
+inline void loadPacked(const Image<uint8_t>& packed, bool isGrey, Picture& picture) {
+  const Size size{isGrey ? packed.width() : packed.width() / 3, packed.height()};
+  const FrameLayout layout{isGrey ? PixelFormat::Gray8 : PixelFormat::Rgb, size};
+  const ImageView<const uint8_t> view = packed;
+  const PlaneMemory memory{view.data, static_cast<uint64_t>(view.strideBytes * view.size.height),
+                           view.strideBytes};
+  picture.load(*Frame::make(layout, std::span(&memory, 1)), oneThread());
+}
 
 /// The frames of a scene: a picture, and what moves and flickers over it.
 inline void loadScene(Size size, int fill, int frame, bool isGrey, Picture& picture) {
@@ -22,11 +33,7 @@ inline void loadScene(Size size, int fill, int frame, bool isGrey, Picture& pict
       packed.at(x, y) = static_cast<uint8_t>(
           isThing ? 255 - levelAt(fill, x, y) : std::min(255, levelAt(fill, x, y) + flicker));
     }
-  const FrameLayout layout{isGrey ? PixelFormat::Gray8 : PixelFormat::Rgb, size};
-  const ImageView<const uint8_t> view = packed;
-  const PlaneMemory memory{view.data, static_cast<uint64_t>(view.strideBytes * view.size.height),
-                           view.strideBytes};
-  picture.load(*Frame::make(layout, std::span(&memory, 1)), oneThread());
+  loadPacked(packed, isGrey, picture);
 }
 
 struct DevicePlanes {

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Sets that are joined by atomicMin on the least member, so that any order of joins ends in the
+// same forest; for .cu files only.
+#pragma once
+
+#include "kernels/device.hpp"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace rg::gpu {
+
+__device__ inline uint32_t rootOf(const uint32_t* parents, uint32_t node) {
+  while (parents[node] != node) node = parents[node];
+  return node;
+}
+
+/// Parents only become less, so one that was read too early is still one of the ancestors; who
+/// loses a race goes on with what the winner wrote.
+__device__ inline void join(uint32_t* parents, uint32_t a, uint32_t b) {
+  for (;;) {
+    a = rootOf(parents, a);
+    b = rootOf(parents, b);
+    if (a == b) return;
+    const uint32_t less = isMutated(Mutant::WrongTieBreak) ? std::max(a, b) : std::min(a, b);
+    const uint32_t more = a ^ b ^ less;
+    if (isMutated(Mutant::WrongTieBreak)) {
+      parents[more] = less;
+      return;
+    }
+    const uint32_t old = atomicMin(parents + more, less);
+    if (old == more) return;
+    a = old;
+    b = less;
+  }
+}
+
+}  // namespace rg::gpu
