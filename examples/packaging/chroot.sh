@@ -26,7 +26,8 @@ make_chroot() {  # SUITE
   cp -a --reflink=auto "$base/." "$chroot"
 }
 
-# Runs a command there. Its mounts and processes end with it.
+# Runs a command there. Its mounts and processes end with it; it is not the first of them, which gets
+# no signals.
 in_chroot() {
   # shellcheck disable=SC2016
   unshare --mount --pid --fork bash -ec '
@@ -34,8 +35,8 @@ in_chroot() {
     mount --bind "$2" "$1/var/cache/apt/archives"
     where=$1
     shift 2
-    exec env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin LC_ALL=C.UTF-8 \
-      DEBIAN_FRONTEND=noninteractive chroot "$where" "$@"' bash "$chroot" "$archives" "$@"
+    env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin LC_ALL=C.UTF-8 \
+      DEBIAN_FRONTEND=noninteractive chroot "$where" "$@" || exit' bash "$chroot" "$archives" "$@"
 }
 
 # Installs packages, by name or as files in the chroot, without what they only recommend.
