@@ -120,6 +120,7 @@ constexpr std::array kProperties{
         "threshold-from",
         "What method=frame-difference takes its threshold from, where threshold is 0",
         thresholdSourceType),
+    analysisHeightProperty<Settings>(),
     sourceProperty<Settings>(),
     tagsProperty<Settings>(),
     threadsProperty<Settings>(),
@@ -183,8 +184,7 @@ class BgRemove final : public PixelFilter<Settings, background::Stage> {
   GstFlowReturn process(const FilterFrame& frame) override {
     checkOrder<segmentation::Labels, graph::Graph, motion::Motion, objects::Objects>(frame);
     Settings settings = followInterest();
-    settings.interest =
-        interest_.fit({GST_VIDEO_INFO_WIDTH(&frame.info), GST_VIDEO_INFO_HEIGHT(&frame.info)});
+    settings.interest = interest_.fit(analysedSize(frame));
     if (!frame.isUsable) {
       attachSkipped<background::Foreground>(frame);
     } else if (auto picture = load(frame)) {

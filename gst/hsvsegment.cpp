@@ -77,6 +77,7 @@ constexpr std::array kProperties{
         "object-hue",
         "Hues of the things to follow: only pixels of these get a region. FROM-TO in degrees, as "
         "350-10 for red; empty = all hues"),
+    analysisHeightProperty<Settings>(),
     threadsProperty<Settings>(),
     statsProperty<Settings>(),
     badBuffersProperty<Settings>(),

@@ -163,6 +163,7 @@ class MrfMerge final : public ChainedFilter<Settings, objects::Stage, motion::Mo
           "So many small regions touch a large one that groups are not searched to the end; a "
           "larger min-area or similarity of hsvsegment, or a smaller max-regions, makes fewer.");
     remember(*objects);
+    packer_.showIn(sizeOf(frame));
     objects = pack(frame.buffer, objects);
     if (latency() > 0)
       delay(std::move(objects), frame.time.ns);

@@ -34,6 +34,14 @@ struct FrameMap {
     return {first.x, first.y, std::max(last.x - first.x, b.width > 0 ? 1 : 0),
             std::max(last.y - first.y, b.height > 0 ? 1 : 0)};
   }
+  /// Pixels, and means of pixels in 1/unit of one: the centre of one goes to the centre of those
+  /// that it becomes.
+  [[nodiscard]] constexpr int64_t centreX(int64_t value, int64_t unit) const {
+    return divideRounded((2 * value + unit) * to.width - unit * from.width, 2 * from.width);
+  }
+  [[nodiscard]] constexpr int64_t centreY(int64_t value, int64_t unit) const {
+    return divideRounded((2 * value + unit) * to.height - unit * from.height, 2 * from.height);
+  }
   [[nodiscard]] constexpr int64_t area(int64_t areaPx) const {
     return divideRounded(areaPx * to.area(), from.area());
   }
@@ -45,6 +53,11 @@ struct FrameMap {
   [[nodiscard]] constexpr int sourceY(int row) const {
     return static_cast<int>((2 * int64_t{row} + 1) * from.height / (2 * int64_t{to.height}));
   }
+  /// The first column x for which sourceX(x) is `column` or more.
+  [[nodiscard]] constexpr int firstX(int column) const {
+    const int64_t twice = 2 * int64_t{column} * to.width - from.width;
+    return twice <= 0 ? 0 : static_cast<int>((twice + 2 * from.width - 1) / (2 * from.width));
+  }
 };
 
 /// A result of a skipped frame may have no size; there is nothing in it to be mapped.
@@ -54,6 +67,9 @@ struct FrameMap {
 static_assert(FrameMap{{4, 4}, {8, 2}}.box({1, 1, 2, 2}) == Box{2, 1, 4, 1});
 static_assert(FrameMap{{100, 100}, {1, 1}}.box({40, 40, 3, 3}) == Box{0, 0, 1, 1});
 static_assert(FrameMap{{3, 3}, {6, 6}}.area(5) == 20);
+static_assert(FrameMap{{5, 5}, {15, 25}}.centreX(2, 1) == 7 &&
+              FrameMap{{5, 5}, {15, 25}}.centreY(4, 1) == 22);
+static_assert(FrameMap{{3, 3}, {12, 3}}.firstX(1) == 4 && FrameMap{{9, 9}, {3, 3}}.firstX(8) == 3);
 static_assert(FrameMap{{3, 3}, {6, 6}}.sourceX(5) == 2 && FrameMap{{9, 9}, {3, 3}}.sourceY(0) == 1);
 
 }  // namespace rg

@@ -3,6 +3,7 @@
 // on them: without pictures and runs of regions, their planes packed.
 #pragma once
 
+#include "core/base/mapping.hpp"
 #include "core/base/memory/pool.hpp"
 #include "core/base/memory/result_plane.hpp"
 #include "core/objects/object.hpp"
@@ -47,6 +48,9 @@ class ResultPacker {
     return copy;
   }
   void endFrame();
+  /// The size of the frames that results are told of: what was found in a smaller picture is packed
+  /// as if found in the frame. Lengths of borders, their contrast and sums of differences remain.
+  void showIn(Size frame) { shown_ = frame; }
   /// Forgets sizes that were.
   void drop();
 
@@ -73,7 +77,12 @@ class ResultPacker {
   void fill(const motion::Motion& from, motion::Motion& to);
   void fill(const Objects& from, Objects& to);
 
+  [[nodiscard]] FrameMap mapOf(Size size) const {
+    return size.isEmpty() || shown_.isEmpty() ? FrameMap{size, size} : FrameMap{size, shown_};
+  }
+
   PlanePacker planes_;
+  Size shown_;  ///< Empty: that of each result.
   std::tuple<Shelf<background::Foreground>, Shelf<segmentation::Labels>, Shelf<graph::Graph>,
              Shelf<motion::Motion>, Shelf<Objects>>
       shelves_;

@@ -3,6 +3,7 @@
 // exceptions into errors on the bus, and tells it about frames, times and resets.
 #pragma once
 
+#include "core/base/geometry.hpp"
 #include "core/base/stage.hpp"
 #include "gst/support/properties.hpp"
 #include "gst/support/stream_clock.hpp"
@@ -58,6 +59,10 @@ struct FilterFrame {
   bool isDownstreamNew;  ///< First since the caps, or since downstream asked to negotiate again.
   bool isUsable;  ///< False for GAP and CORRUPTED buffers: to be skipped, nothing to be learnt.
 };
+
+[[nodiscard]] inline Size sizeOf(const FilterFrame& frame) {
+  return {GST_VIDEO_INFO_WIDTH(&frame.info), GST_VIDEO_INFO_HEIGHT(&frame.info)};
+}
 
 /// Base of the C++ objects behind the elements. All but the properties runs on the streaming
 /// thread.

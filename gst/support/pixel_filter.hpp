@@ -4,6 +4,7 @@
 
 #include "core/base/memory/pool.hpp"
 #include "core/base/picture.hpp"
+#include "core/base/reduced_frame.hpp"
 #include "core/base/result.hpp"
 #include "gst/support/mapped_frame.hpp"
 #include "gst/support/stage_filter.hpp"
@@ -15,6 +16,7 @@ namespace rg {
 
 struct PixelSettings : StageSettings {
   guint64 badBuffers = 0;
+  int analysisHeight = 0;
 };
 
 template <class Settings>
@@ -25,18 +27,36 @@ constexpr Property badBuffersProperty() {
                                                    0, 0, Mutable::Never);
 }
 
+template <class Settings>
+constexpr Property analysisHeightProperty() {
+  return property<Settings, &Settings::analysisHeight>(
+      "analysis-height",
+      "Rows of the picture that the stages look at; frames with more are scaled down for them, in "
+      "their shape, which makes cameras of many pixels cheap. All that is told of objects is still "
+      "in pixels of the frame; properties in pixels, as max-shift, are of the smaller picture. "
+      "0 = the whole frame. At least 1/128 of the frame's",
+      0, 16384, Mutable::Ready);
+}
+
 /// A stage element that reads frames itself.
 template <class Settings, class Stage>
 class PixelFilter : public StageOwner<Settings, Stage> {
  public:
   using StageOwner<Settings, Stage>::StageOwner;
 
+  bool start() override {
+    analysisHeight_ = this->currentSettings().analysisHeight;
+    return StageOwner<Settings, Stage>::start();
+  }
   void reset(Reset what) override {
     if (what == Reset::Stream) pool_.drop();
     StageOwner<Settings, Stage>::reset(what);
   }
 
  protected:
+  [[nodiscard]] Size analysedSize(const FilterFrame& frame) const final {
+    return reducedSize(sizeOf(frame), analysisHeight_);
+  }
   /// Maps, checks and converts a frame; counts those whose memory can't be believed.
   [[nodiscard]] Result<std::shared_ptr<const Picture>> load(const FilterFrame& frame) {
     const MappedFrame mapped(frame.buffer, frame.info);
@@ -46,11 +66,19 @@ class PixelFilter : public StageOwner<Settings, Stage> {
       return mapped.frame().error();
     }
     auto picture = pool_.take();
-    picture->load(*mapped.frame(), this->executor());
+    const Size size = this->analysedSize(frame);
+    if (size == mapped.frame()->size()) {
+      picture->load(*mapped.frame(), this->executor());
+    } else {
+      reduced_.load(*mapped.frame(), size, this->executor());
+      picture->load(reduced_.view(), this->executor());
+    }
     return std::shared_ptr<const Picture>(std::move(picture));
   }
 
  private:
+  int analysisHeight_ = 0;  ///< As at the start.
+  ReducedFrame reduced_;
   Pool<Picture> pool_;
 };
 

@@ -107,12 +107,15 @@ class StageFilter : public Filter {
     return skipped<Payload>(frame);
   }
 
+  /// Of the picture that is looked at.
+  [[nodiscard]] virtual Size analysedSize(const FilterFrame& frame) const { return sizeOf(frame); }
+
   /// The result of a frame that there is none of.
   template <class Payload>
   [[nodiscard]] std::shared_ptr<const Payload> skipped(const FilterFrame& frame) {
     ++skippedFrames_;
     auto result = std::make_shared<Payload>();
-    result->size = {GST_VIDEO_INFO_WIDTH(&frame.info), GST_VIDEO_INFO_HEIGHT(&frame.info)};
+    result->size = analysedSize(frame);
     return result;
   }
 

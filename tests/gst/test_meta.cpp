@@ -194,7 +194,7 @@ TEST(PlaneBytes, ShareRowsThatAreNotPadded) {
 template <class T>
 void pack(ResultPlane<T>& plane) {
   ResultPlane<T> packed;
-  PlanePacker().pack(plane, packed);
+  PlanePacker().pack(plane, packed, plane.size());
   plane = std::move(packed);
 }
 

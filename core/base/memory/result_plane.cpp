@@ -4,6 +4,7 @@
 #include "core/base/memory/spare.hpp"
 #include "core/simd/base/run_rows.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <span>
 
@@ -22,10 +23,10 @@ const uint16_t* wideRow(const uint8_t* pixels, int width, std::vector<uint16_t>&
 }  // namespace
 
 template <class T>
-void PlanePacker::pack(const ResultPlane<T>& from, ResultPlane<T>& to) {
-  assert(!from.isPacked() && from.width() <= UINT16_MAX);
+void PlanePacker::pack(const ResultPlane<T>& from, ResultPlane<T>& to, Size shown) {
+  assert(!from.isPacked() && std::max(from.width(), shown.width) <= UINT16_MAX);
   to.isPacked_ = true;
-  to.size_ = from.size();
+  to.size_ = from.size().isEmpty() ? from.size() : shown;
   if (packRows(from.view(), to)) {
     to.whole_ = {};
     giveBackSpare(to.begins_);
@@ -45,6 +46,8 @@ bool PlanePacker::packRows(ImageView<const T> from, ResultPlane<T>& to) {
   const auto width = static_cast<size_t>(from.width());
   const size_t most =
       width * static_cast<size_t>(from.height()) * sizeof(T) / (sizeof(T) + sizeof(uint16_t));
+  const FrameMap map{from.size, to.size_};
+  const bool isScaled = map.from != map.to;
   begins_.resize(width + 1);
   to.starts_.assign(1, 0);
   to.begins_.clear();
@@ -55,14 +58,17 @@ bool PlanePacker::packRows(ImageView<const T> from, ResultPlane<T>& to) {
         simd::findRuns(wideRow(pixels, from.width(), row_), from.width(), begins_.data());
     const std::span<const uint16_t> begins(begins_.data(), static_cast<size_t>(runs));
     if (to.begins_.size() + begins.size() > most) return false;
-    to.begins_.insert(to.begins_.end(), begins.begin(), begins.end());
+    for (const uint16_t begin : begins)
+      to.begins_.push_back(isScaled ? static_cast<uint16_t>(map.firstX(begin)) : begin);
     for (const uint16_t begin : begins) to.values_.push_back(pixels[begin]);
     to.starts_.push_back(static_cast<uint32_t>(to.begins_.size()));
   }
   return true;
 }
 
-template void PlanePacker::pack(const ResultPlane<uint8_t>& from, ResultPlane<uint8_t>& to);
-template void PlanePacker::pack(const ResultPlane<uint16_t>& from, ResultPlane<uint16_t>& to);
+template void PlanePacker::pack(const ResultPlane<uint8_t>& from, ResultPlane<uint8_t>& to,
+                                Size shown);
+template void PlanePacker::pack(const ResultPlane<uint16_t>& from, ResultPlane<uint16_t>& to,
+                                Size shown);
 
 }  // namespace rg

@@ -3,6 +3,7 @@
 // are left. A frame that waits in a queue then holds a tenth of the memory.
 #pragma once
 
+#include "core/base/mapping.hpp"
 #include "core/base/memory/image.hpp"
 
 #include <algorithm>
@@ -26,7 +27,7 @@ class ResultPlane : public Image<T> {
   /// The pixels, in `scratch` where they must be unpacked. Throws std::bad_alloc.
   [[nodiscard]] ImageView<const T> unpacked(Image<T>& scratch) const {
     if (!isPacked_) return this->view();
-    if (starts_.empty()) return whole_.view();
+    if (whole_.size() == size_) return whole_.view();
     scratch.resize(size_);
     for (int y = 0; y < size_.height; ++y) unpackRow(y, scratch.row(y));
     return scratch.view();
@@ -35,7 +36,7 @@ class ResultPlane : public Image<T> {
   /// One row of them, in `scratch` where it must be unpacked.
   [[nodiscard]] const T* unpackedRow(int y, std::vector<T>& scratch) const {
     if (!isPacked_) return this->row(y);
-    if (starts_.empty()) return whole_.row(y);
+    if (whole_.size() == size_) return whole_.row(y);
     scratch.resize(static_cast<size_t>(size_.width));
     unpackRow(y, scratch.data());
     return scratch.data();
@@ -63,16 +64,25 @@ class ResultPlane : public Image<T> {
   friend class PlanePacker;
 
   void unpackRow(int y, T* row) const {
-    const auto first = starts_[static_cast<size_t>(y)], last = starts_[static_cast<size_t>(y) + 1];
+    if (starts_.empty()) return scaleRow(y, row);
+    const int height = static_cast<int>(starts_.size()) - 1;
+    const auto at = static_cast<size_t>(FrameMap{{1, height}, {1, size_.height}}.sourceY(y));
+    const auto first = starts_[at], last = starts_[at + 1];
     for (size_t i = first; i < last; ++i) {
       const int end = i + 1 < last ? begins_[i + 1] : size_.width;
       std::fill(row + begins_[i], row + end, values_[i]);
     }
   }
 
+  void scaleRow(int y, T* row) const {
+    const FrameMap map{whole_.size(), size_};
+    const T* from = whole_.row(map.sourceY(y));
+    for (int x = 0; x < size_.width; ++x) row[x] = from[map.sourceX(x)];
+  }
+
   bool isPacked_ = false;
-  Size size_;                     ///< When packed.
-  std::vector<uint32_t> starts_;  ///< Runs of row y: starts_[y] … starts_[y + 1] − 1.
+  Size size_;                     ///< When packed, as it is shown: rows may be those of another.
+  std::vector<uint32_t> starts_;  ///< Runs of packed row y: starts_[y] … starts_[y + 1] − 1.
   std::vector<uint16_t> begins_;  ///< First column of each run, which ends where the next begins.
   std::vector<T> values_;
   Image<T> whole_;  ///< Instead of runs, where those would take more.
@@ -81,10 +91,11 @@ class ResultPlane : public Image<T> {
 /// Fills packed planes. Its memory serves one frame after the other.
 class PlanePacker {
  public:
-  /// Columns are 16 bits wide: pictures are narrower than 65536. Throws std::bad_alloc; `to` is
-  /// to be filled anew then.
+  /// Shown at another size, each pixel is that of `from` that lies under its centre; what is empty
+  /// stays so. Columns are 16 bits wide: pictures are narrower than 65536. Throws std::bad_alloc;
+  /// `to` is to be filled anew then.
   template <class T>
-  void pack(const ResultPlane<T>& from, ResultPlane<T>& to);
+  void pack(const ResultPlane<T>& from, ResultPlane<T>& to, Size shown);
 
  private:
   template <class T>

@@ -53,7 +53,7 @@ void packsAll() {
     for (const int longest : {1, 2, 7, 500})
       for (const int most : {0, 1, 255, 65535}) {
         const auto plane = randomPlane<T>(size, longest, most, ++seed);
-        packer.pack(plane, packed);
+        packer.pack(plane, packed, size);
         expectSame(packed, plane);
         copy.copyFrom(packed);
         expectSame(copy, plane);
@@ -68,10 +68,33 @@ TEST(PlanePacker, GivesEveryPixelBack) {
   packsAll<uint16_t>();
 }
 
+/// Long runs, and noise that is kept as it lies.
+TEST(PlanePacker, ShowsAnotherSizeByThePixelsUnderTheCentres) {
+  PlanePacker packer;
+  ResultPlane<uint8_t> packed;
+  for (const int longest : {1, 30}) {
+    const auto plane = randomPlane<uint8_t>({61, 40}, longest, 255, 7);
+    for (const Size shown : {Size{244, 160}, {61, 77}, {100, 40}, {30, 13}, {1, 1}}) {
+      packer.pack(plane, packed, shown);
+      ASSERT_EQ(packed.pixelSize(), shown);
+      Image<uint8_t> scratch;
+      std::vector<uint8_t> row;
+      const FrameMap map{plane.size(), shown};
+      const auto pixels = packed.unpacked(scratch);
+      for (int y = 0; y < shown.height; ++y)
+        for (int x = 0; x < shown.width; ++x) {
+          const int expected = plane.at(map.sourceX(x), map.sourceY(y));
+          ASSERT_EQ(int{pixels.at(x, y)}, expected) << x << ' ' << y;
+          ASSERT_EQ(int{packed.unpackedRow(y, row)[x]}, expected) << x << ' ' << y;
+        }
+    }
+  }
+}
+
 TEST(PlanePacker, PacksWhatIsEmpty) {
   PlanePacker packer;
   ResultPlane<uint8_t> packed;
-  packer.pack(ResultPlane<uint8_t>{}, packed);
+  packer.pack(ResultPlane<uint8_t>{}, packed, {8, 8});
   EXPECT_TRUE(packed.isPacked());
   EXPECT_TRUE(packed.pixelSize().isEmpty());
 }

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// A smaller frame of the same picture, for analysis at a lower resolution than the camera's.
+//
+// Determinism: rounded means of whole samples, each of a box of its own; the same bits for any
+// number of threads.
+#pragma once
+
+#include "core/base/frame.hpp"
+#include "core/base/memory/executor.hpp"
+#include "core/base/memory/image.hpp"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace rg {
+
+/// The size of a frame that is to be looked at with so many rows: of the same shape, never larger
+/// than the frame, 1/128 of its height at least. rows = 0: as it is.
+[[nodiscard]] Size reducedSize(Size frame, int rows);
+
+class ReducedFrame {
+ public:
+  /// Takes a frame's samples at a size that reducedSize() gave. Each is the rounded mean of those
+  /// that it covers: of columns x · from / to … (x + 1) · from / to − 1, and of rows alike.
+  /// Y'CbCr becomes I420, packed colours RGB; matrix and range stay.
+  void load(const Frame& frame, Size size, const Executor& executor);
+  /// Points into this object, until it is loaded again.
+  [[nodiscard]] Frame view() const;
+
+ private:
+  /// Samples of one kind in a plane's rows.
+  struct Channel {
+    int offsetBytes;                   ///< Of the first one.
+    uint8_t* to;                       ///< Its mean in the first row,
+    ptrdiff_t strideBytes, stepBytes;  ///< and the way to the next row's and column's.
+  };
+  /// A plane of samples that lie `step` bytes apart.
+  struct Samples {
+    ImageView<const uint8_t> bytes;
+    int step;
+    Size size, to;
+  };
+  void reduce(const Samples& from, std::span<const Channel> channels, const Executor& executor);
+  void reduceRow(const Samples& from, std::span<const Channel> channels, int y) const;
+
+  FrameLayout layout_;
+  std::array<Image<uint8_t>, Frame::kMaxPlanes> planes_;
+  std::vector<int> columns_;  ///< Where the columns that a sample covers begin, and all end.
+};
+
+}  // namespace rg
