@@ -26,8 +26,8 @@ make_chroot() {  # SUITE
   cp -a --reflink=auto "$base/." "$chroot"
 }
 
-# Runs a command there. Its mounts and processes end with it; it is not the first of them, which gets
-# no signals.
+# Runs a command there. Its mounts and processes end with it; it is not the first of them, which
+# gets no signals.
 in_chroot() {
   # shellcheck disable=SC2016
   unshare --mount --pid --fork bash -ec '

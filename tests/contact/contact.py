@@ -161,11 +161,31 @@ def check_versions():
             fail(f'{plugin} does not lie in {folder}')
 
 
+def has(element):
+    is_there = subprocess.run(['gst-inspect-1.0', '--exists', element], check=False).returncode == 0
+    if not is_there:
+        print(f'contact: no {element} here')
+    return is_there
+
+
+def check_other_process():
+    """From GStreamer 1.24 on what one process finds another one writes."""
+    if not has('unixfdsink'):
+        return
+    shell(f'{SOURCE} ! regiontrack ! regionwrite location=near.jsonl ! unixfdsink '
+          'socket-path=socket wait-for-connection=true & until [[ -S socket ]]; do sleep 0.1; '
+          'done; timeout 100 gst-launch-1.0 unixfdsrc socket-path=socket ! regionwrite '
+          'location=far.jsonl ! fakesink; wait')
+    # Times are those of each pipeline's clock.
+    near, far = ([{**json.loads(line), 'pts': 0} for line in open(name, encoding='ascii')]
+                 for name in ('near.jsonl', 'far.jsonl'))
+    if near != far or len(near) != FRAMES:
+        fail('another process does not write what this one found')
+
+
 def check_analytics_consumer():
     """Debian 13's objectdetectionoverlay draws what it reads of GstAnalytics."""
-    if subprocess.run(['gst-inspect-1.0', '--exists', 'objectdetectionoverlay'],
-                      check=False).returncode != 0:
-        print('contact: no objectdetectionoverlay here')
+    if not has('objectdetectionoverlay'):
         return
     drawn = [shell(f'{SOURCE} ! regiontrack ! videoconvert ! video/x-raw,format=BGRA ! {element} ! '
                    f'filesink location=drawn.raw && md5sum drawn.raw').splitlines()[-1]
@@ -193,6 +213,7 @@ def main():
         compare('C++', in_cpp('examples'), lines)
         compare('Python', in_python(), lines)
         compare("DL Streamer's rule", by_rule(), lines)
+        check_other_process()
         check_analytics_consumer()
     print(f'contact: {len(failures)} failures')
     sys.exit(1 if failures else 0)

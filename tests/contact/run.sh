@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Does what an integrator does, on a clean Debian and with nothing but the packages: installs the
-# stages, and sees that OpenCV stays away; runs every launch line of README and gst-inspect-1.0 as it
-# stands; reads objects in C++, in Python and by DL Streamer's rule. Prints what differs, and fails
+# stages, and sees that OpenCV stays away; runs every launch line of README and gst-inspect-1.0 as
+# it stands; reads objects in C++, in Python and by DL Streamer's rule. Prints what differs, and fails
 # where something does.
 #
 # usage: run.sh [SUITE [FOLDER]]     SUITE: bookworm (default), trixie
