@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Does what an integrator does, on a clean Debian and with nothing but the packages: installs the
 # stages, and sees that OpenCV stays away; runs every launch line of README and gst-inspect-1.0 as
-# it stands; reads objects in C++, in Python and by DL Streamer's rule. Prints what differs, and fails
-# where something does.
+# it stands; reads objects in C++, in Python and by DL Streamer's rule. Prints what differs, and
+# fails where something does.
 #
 # usage: run.sh [SUITE [FOLDER]]     SUITE: bookworm (default), trixie
 # FOLDER: packages that examples/packaging/build.sh made (default: it makes them now)
@@ -50,8 +50,8 @@ install_there $(cd "$chroot" && printf '/%s\n' packages/*.deb) \
   gir1.2-gst-plugins-base-1.0 gir1.2-gst-rtsp-server-1.0 gstreamer1.0-tools \
   gstreamer1.0-plugins-base gstreamer1.0-plugins-good gstreamer1.0-plugins-bad gstreamer1.0-libav \
   "${extra[@]}"
-# autovideosink wants a screen.
-in_chroot xvfb-run -a /contact/contact.py /usr/share/doc/gst-regiongraph-doc
+# autovideosink wants a screen, which by default closes for a moment with its last window.
+in_chroot xvfb-run -a -s -noreset /contact/contact.py /usr/share/doc/gst-regiongraph-doc
 echo 'contact: the launch lines of gst-inspect-1.0 and copies of the examples'
 in_chroot /usr/bin/python3 /contact/test_first_run.py /usr/share/doc/gst-regiongraph-doc/examples
 echo "contact: all well on $suite"
