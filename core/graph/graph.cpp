@@ -5,6 +5,7 @@
 #include "core/base/pixel.hpp"
 #include "core/base/renewed_stage.hpp"
 #include "core/graph/arc_table.hpp"
+#include "core/graph/region_sums.hpp"
 #include "core/simd/base/run_rows.hpp"
 
 #include <algorithm>
@@ -19,15 +20,7 @@ namespace {
 
 using segmentation::RegionLabel;
 
-constexpr int kCentroidFraction = 256;
 constexpr int kMostBands = 8;
-
-struct RegionSums {
-  uint64_t x = 0, y = 0, red = 0, green = 0, blue = 0;
-  uint32_t areaPx = 0;
-  int32_t left = INT32_MAX, right = 0, top = INT32_MAX, bottom = 0;  // right, bottom: exclusive.
-  uint32_t runs = 0;  ///< Their number; then where the next one goes in the graph.
-};
 
 /// What one task saw; tasks are joined by sums, minima and maxima.
 struct BandSums {
@@ -39,35 +32,6 @@ struct BandSums {
   std::vector<rg::simd::ChannelSums> channels;  ///< Of each run of a row.
   std::vector<uint64_t> alike;  ///< Bits of the pixels whose upper neighbour is alike.
 };
-
-void add(RegionSums& to, const RegionSums& from) {
-  to.x += from.x;
-  to.y += from.y;
-  to.red += from.red;
-  to.green += from.green;
-  to.blue += from.blue;
-  to.areaPx += from.areaPx;
-  to.left = std::min(to.left, from.left);
-  to.right = std::max(to.right, from.right);
-  to.top = std::min(to.top, from.top);
-  to.bottom = std::max(to.bottom, from.bottom);
-  to.runs += from.runs;
-}
-
-Region describe(const RegionSums& sums) {
-  const auto area = int64_t{sums.areaPx};
-  const auto mean = [&](uint64_t sum) {
-    return static_cast<uint8_t>(divideRounded(static_cast<int64_t>(sum), area));
-  };
-  const auto centre = [&](uint64_t sum) {
-    return static_cast<int32_t>(divideRounded(static_cast<int64_t>(sum) * kCentroidFraction, area));
-  };
-  return {sums.areaPx,
-          {sums.left, sums.top, sums.right - sums.left, sums.bottom - sums.top},
-          centre(sums.x),
-          centre(sums.y),
-          {mean(sums.red), mean(sums.green), mean(sums.blue)}};
-}
 
 /// Rows first … last − 1: a task's share.
 struct Band {
