@@ -25,6 +25,7 @@
 #include "kernels/operations.hpp"
 #include "kernels/picture.hpp"
 #include "kernels/region_division.hpp"
+#include "kernels/region_graph.hpp"
 #include "kernels/scene_watch.hpp"
 #include "kernels/scopes.hpp"
 #include "kernels/shadow.hpp"

@@ -71,6 +71,7 @@
   X(divideRegions, rg::segmentation::RegionDivision, rg::gpu::segmentation::divideRegions)  \
   X(divideAgain, rg::segmentation::RegionDivision, rg::gpu::segmentation::divideAgain)      \
   X(refineBorders, rg::segmentation::BorderPixels, rg::gpu::segmentation::refineBorders)    \
+  X(buildGraph, rg::graph::makeStage, rg::gpu::graph::buildGraph)                           \
   X(padLuma, rg::motion::PaddedLuma, rg::gpu::motion::padLuma)                              \
   X(sumBoxes, rg::motion::BoxSums, rg::gpu::motion::sumBoxes)                               \
   X(searchShifts, rg::motion::searchShifts, rg::gpu::motion::searchShifts)

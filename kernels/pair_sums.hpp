@@ -8,14 +8,15 @@
 
 namespace rg::gpu {
 
-__device__ inline void addPair(const PairTable& table, uint32_t slots, unsigned long long key,
-                               uint32_t value) {
+/// Returns the pair's slot.
+__device__ inline uint32_t addPair(const PairTable& table, uint32_t slots, unsigned long long key,
+                                   uint32_t value) {
   auto slot = static_cast<uint32_t>(mixHash64(key)) & (slots - 1);
   for (;; slot = (slot + 1) & (slots - 1)) {
     const unsigned long long old = atomicCAS(table.keys + slot, 0ull, key);
     if (old != 0 && old != key) continue;
     atomicAdd(table.sums + slot, value);
-    return;
+    return slot;
   }
 }
 

@@ -18,4 +18,18 @@ namespace rg::gpu {
 /// scanScratchOf(count) + 1.
 void scan(const uint32_t* numbers, int count, uint32_t* sums, uint32_t* scratch, Stream stream);
 
+/// Keys with a value each, room for as many again, and what sorting needs, all for `capacity`
+/// pairs.
+inline constexpr int kSortTile = 2048, kSortDigits = 256;
+[[nodiscard]] constexpr int sortOffsetsOf(int capacity) {
+  return kSortDigits * static_cast<int>(blocksFor(capacity, kSortTile));
+}
+struct SortView {
+  uint32_t *keys, *values, *otherKeys, *otherValues;
+  uint32_t* offsets;  ///< sortOffsetsOf(capacity) + 1.
+  uint32_t* scratch;  ///< scanScratchOf(sortOffsetsOf(capacity)) + 1.
+};
+/// Sorts the first *count pairs by their keys; equal keys stay in their order.
+void sortPairs(const SortView& pairs, int capacity, const uint32_t* count, Stream stream);
+
 }  // namespace rg::gpu

@@ -143,7 +143,15 @@ void launchSegmentation(const Memory& m) {
   gpu::segmentation::divideAgain(nullptr, groups, limits, {}, plane<uint16_t>(m.size), nullptr);
 }
 
-/// 160 regions that are matched with all of their pixels, by shifts of up to 20.
+void launchGraph(const Memory& m) {
+  constexpr uint32_t kMostLabels = 1024;
+  gpu::graph::GraphView graph{};
+  graph.mostLabels = kMostLabels;
+  gpu::graph::buildGraph({plane<uint16_t>(m.size), nullptr, m.planes}, Connectivity::Four, graph,
+                         nullptr);
+}
+
+/// 160 regions that are matched with as many pixels as are enough, by shifts of up to 20.
 void launchSearch(const Memory& m) {
   constexpr motion::ShiftRange kRange{20, 21};
   constexpr int kRegions = 160;
@@ -158,13 +166,14 @@ void launchSearch(const Memory& m) {
                             {nullptr, nullptr, kRegions}, nullptr, nullptr);
 }
 
-/// A frame's way through what there is of the pipeline: method hybrid, segmentation, the search
-/// for motion.
+/// A frame's way through what there is of the pipeline: method hybrid, segmentation, graph, the
+/// search for motion.
 void launchFrame(Size size) {
   const Memory m{size};
   loadFrame(size);
   launchBackground(m);
   launchSegmentation(m);
+  launchGraph(m);
   launchSearch(m);
 }
 
