@@ -24,7 +24,8 @@ build_elements() {
   fi
   "$root/tests/setup.sh"
   if [[ ! -f $build/build.ninja ]]; then
-    meson setup "$build" "$root" --buildtype=release -Dtests=disabled -Dbenchmarks=disabled
+    meson setup "$build" "$root" --buildtype=release -Dtests=disabled -Dbenchmarks=disabled \
+      -Dcuda=disabled
   fi
   ninja -C "$build"
 }

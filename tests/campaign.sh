@@ -43,8 +43,8 @@ export G_SLICE=always-malloc G_DEBUG=gc-friendly ORC_CODE=backup GST_PLUGIN_PATH
 
 configure_fuzzers() {
   [[ -f $fuzz_build/build.ninja ]] ||
-    CC=clang CXX=clang++ meson setup "$fuzz_build" "$root" -Dwerror=true -Dfuzz=true \
-      -Db_lundef=false -Db_sanitize=address,undefined -Doptimization=1 \
+    CC=clang CXX=clang++ meson setup "$fuzz_build" "$root" -Dwerror=true -Dcuda=disabled \
+      -Dfuzz=true -Db_lundef=false -Db_sanitize=address,undefined -Doptimization=1 \
       -Dcpp_args='-fsanitize=fuzzer-no-link -D_GLIBCXX_ASSERTIONS' \
       >/dev/null
 }
@@ -94,8 +94,8 @@ run_fuzz() {
 
 run_threads() {
   [[ -f $tsan_build/build.ninja ]] ||
-    CXX=g++ meson setup "$tsan_build" "$root" -Dwerror=true -Db_sanitize=thread -Doptimization=1 \
-      -Db_lundef=false >/dev/null
+    CXX=g++ meson setup "$tsan_build" "$root" -Dwerror=true -Dcuda=disabled \
+      -Db_sanitize=thread -Doptimization=1 -Db_lundef=false >/dev/null
   ninja -C "$tsan_build" tests/stress/stress >/dev/null
   local stress=("$tsan_build/tests/stress/stress")
   export TSAN_OPTIONS=halt_on_error=1:history_size=4:second_deadlock_stack=1
