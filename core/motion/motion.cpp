@@ -10,22 +10,10 @@
 #include "core/motion/shift_search.hpp"
 
 #include <algorithm>
-#include <cstring>
 #include <utility>
 
 namespace rg::motion {
 namespace {
-
-bool isUnchanged(std::span<const MatchedPart> parts, ImageView<const uint8_t> luma,
-                 ImageView<const uint8_t> previous) {
-  return std::all_of(parts.begin(), parts.end(), [&](const MatchedPart& part) {
-    bool isSame = true;
-    forBlocks(part, [&](int x, int y) {
-      isSame = isSame && std::memcmp(luma.row(y) + x, previous.row(y) + x, kBlockWidth) == 0;
-    });
-    return isSame;
-  });
-}
 
 class CpuMotion : public Stage {
  public:
@@ -82,9 +70,7 @@ void CpuMotion::match(const graph::Graph& graph, const Params& params, Motion& m
     const auto parts = blocks_.partsOf(label);
     if (parts.empty()) return;
     isStill_[i] = isUnchanged(parts, graph.picture->luma(), previous_->luma());
-    // Where nothing changed no shift is better than none, and of the others only the nearest count.
-    const ShiftRange range =
-        isStill_[i] != 0 ? ShiftRange{0, 1} : ShiftRange{maxShift, maxShift + 1};
+    const ShiftRange range = isStill_[i] != 0 ? kStillRange : ShiftRange{maxShift, maxShift + 1};
     const FoundShift found = searchShifts(parts, graph.picture->luma(), searched_, range,
                                           scratch_[static_cast<size_t>(thread)]);
     const GradientProducts& gradients = blocks_.gradientsOf(label);

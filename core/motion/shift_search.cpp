@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <cstring>
 #include <tuple>
 
 namespace rg::motion {
@@ -72,6 +73,17 @@ FoundShift searchShiftsPlainly(std::span<const MatchedPart> parts, ImageView<con
         found.sums[static_cast<size_t>(3 * y + x)] = sum;
     }
   return found;
+}
+
+bool isUnchanged(std::span<const MatchedPart> parts, ImageView<const uint8_t> luma,
+                 ImageView<const uint8_t> previous) {
+  return std::all_of(parts.begin(), parts.end(), [&](const MatchedPart& part) {
+    bool isSame = true;
+    forBlocks(part, [&](int x, int y) {
+      isSame = isSame && std::memcmp(luma.row(y) + x, previous.row(y) + x, kBlockWidth) == 0;
+    });
+    return isSame;
+  });
 }
 
 }  // namespace rg::motion

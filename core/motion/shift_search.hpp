@@ -32,7 +32,7 @@ struct FoundShift {
   uint32_t mean = 0;
   bool isBeaten = false;  ///< By a shift that may not be the best one.
 
-  [[nodiscard]] int64_t sum(int dx = 0, int dy = 0) const {
+  [[nodiscard]] constexpr int64_t sum(int dx = 0, int dy = 0) const {
     return sums[static_cast<size_t>(3 * (dy + 1) + dx + 1)];
   }
 };
@@ -65,6 +65,12 @@ struct SearchScratch {
 
 /// Bounds go no higher; one at it says nothing of how far the sum is above.
 inline constexpr uint16_t kMostBound = UINT16_MAX;
+
+/// Whether none of the parts' pixels has changed since the previous picture.
+[[nodiscard]] bool isUnchanged(std::span<const MatchedPart> parts, ImageView<const uint8_t> luma,
+                               ImageView<const uint8_t> previous);
+/// Where nothing changed no shift is better than none, and of the others only the nearest count.
+inline constexpr ShiftRange kStillRange{0, 1};
 
 /// On the best instructions that the machine has; the same as searchShiftsPlainly on all. parts: at
 /// least one, of fewer than 2^22 pixels. previous: padded by at least the range's reach.
