@@ -22,6 +22,7 @@
 #include "kernels/mask_cleaning.hpp"
 #include "kernels/mask_contour.hpp"
 #include "kernels/mask_gaps.hpp"
+#include "kernels/motion_estimate.hpp"
 #include "kernels/operations.hpp"
 #include "kernels/picture.hpp"
 #include "kernels/region_division.hpp"

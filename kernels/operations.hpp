@@ -74,4 +74,7 @@
   X(buildGraph, rg::graph::makeStage, rg::gpu::graph::buildGraph)                           \
   X(padLuma, rg::motion::PaddedLuma, rg::gpu::motion::padLuma)                              \
   X(sumBoxes, rg::motion::BoxSums, rg::gpu::motion::sumBoxes)                               \
-  X(searchShifts, rg::motion::searchShifts, rg::gpu::motion::searchShifts)
+  X(searchShifts, rg::motion::searchShifts, rg::gpu::motion::searchShifts)                  \
+  X(findStill, rg::motion::isUnchanged, rg::gpu::motion::findStill)                         \
+  X(sumGradients, rg::motion::sumGradients, rg::gpu::motion::sumGradients)                  \
+  X(estimateMotion, rg::motion::estimateMotion, rg::gpu::motion::estimateMotion)

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/base/pixel.hpp"
+#include "core/motion/fit_sums.hpp"
+#include "core/motion/textured_cells.hpp"
 #include "kernels/block_reduce.hpp"
 #include "kernels/shift_search.hpp"
 #include "kernels/start.hpp"
@@ -76,17 +78,25 @@ __device__ void addHalf(const MatchedPart& part, int half, const ShiftedPart& sh
   }
 }
 
+__device__ ShiftRange rangeOf(const MatchedRegions& regions, int region, const ShiftRange& most) {
+  const bool isStill = regions.still != nullptr && regions.still[region] != 0;
+  return isStill ? ShiftRange{rg::motion::kStillRange.maxShift, rg::motion::kStillRange.reach}
+                 : most;
+}
+
 /// A thread for each shift; neighbours in a warp see neighbouring pixels.
 __global__ void sumShifts(const __grid_constant__ MatchedRegions regions, int firstRegion,
-                          const __grid_constant__ SearchedPlanes planes, int reach, ShiftSums out) {
+                          const __grid_constant__ SearchedPlanes planes, ShiftRange most,
+                          ShiftSums out) {
+  const int region = firstRegion + static_cast<int>(blockIdx.y);
+  const int reach = rangeOf(regions, region, most).reach;
   const int side = 2 * reach + 1, shift = indexInGrid();
   if (shift >= side * side) return;
   const ShiftedPart shifted{planes, {reach - shift % side, reach - shift / side}};
-  const int region = firstRegion + static_cast<int>(blockIdx.y);
   Sums sums;
   for (uint32_t i = regions.starts[region]; i < regions.starts[region + 1]; ++i)
     for (int half = 0; half < 2; ++half) addHalf(regions.parts[i], half, shifted, sums);
-  const int at = static_cast<int>(blockIdx.y) * side * side + shift;
+  const int at = static_cast<int>(blockIdx.y) * shiftsOf(most) + shift;
   out.sums[at] = sums.sum;
   out.bounds[at] = sums.bound;
 }
@@ -114,11 +124,13 @@ struct Total {
 };
 
 /// A block for each region.
-__global__ void chooseShifts(ShiftRange range, ShiftSums from, FoundShift* found) {
+__global__ void chooseShifts(const __grid_constant__ MatchedRegions regions, int firstRegion,
+                             ShiftRange most, ShiftSums from, FoundShift* found) {
   RG_SHARED(unsigned long long, values, kReduceWarps);
+  const ShiftRange range = rangeOf(regions, firstRegion + static_cast<int>(blockIdx.x), most);
   const int side = 2 * range.reach + 1, count = side * side;
-  const uint32_t* sums = from.sums + static_cast<ptrdiff_t>(blockIdx.x) * count;
-  const uint32_t* bounds = from.bounds + static_cast<ptrdiff_t>(blockIdx.x) * count;
+  const ptrdiff_t begin = static_cast<ptrdiff_t>(blockIdx.x) * shiftsOf(most);
+  const uint32_t *sums = from.sums + begin, *bounds = from.bounds + begin;
   const auto shiftOf = [&](int i) { return Point{i % side - range.reach, i / side - range.reach}; };
   const int first = static_cast<int>(threadIdx.x);
   unsigned long long key = ~0ull, bound = 0;
@@ -170,10 +182,13 @@ void searchShifts(const MatchedRegions& regions, const SearchedPlanes& planes,
                   const ShiftRange& range, const ShiftSums& scratch, FoundShift* found,
                   Stream stream) {
   const int shifts = shiftsOf(range);
-  // If the regions' pixels are all of the frame's. Of four: two loads, a shift, a sum of
-  // differences, and as much for the loop; a quarter of it for the box.
+  // Of a region no more are matched than are enough, and a cell. Of four pixels: two loads, a
+  // shift, a sum of differences, and as much for the loop; a quarter of it for the box.
+  constexpr double kMostOfRegion =
+      rg::motion::kEnoughPx + rg::motion::kCellSize * rg::motion::kCellSize;
   const double share = 1.0 / std::max(1, regions.count);
-  const double pixels = static_cast<double>(planes.luma.size.area()) * share;
+  const double pixels =
+      std::min(kMostOfRegion, static_cast<double>(planes.luma.size.area()) * share);
   for (int first = 0; first < regions.count; first += scratch.regions) {
     const int count = std::min(scratch.regions, regions.count - first);
     const auto each = static_cast<double>(count);
@@ -181,12 +196,12 @@ void searchShifts(const MatchedRegions& regions, const SearchedPlanes& planes,
            {blocksFor(shifts, kReduceThreads), static_cast<unsigned>(count), 1},
            {kReduceThreads, 1, 1},
            {each * (4 * pixels + 8.0 * shifts), each * 2.5 * pixels * shifts}},
-          stream, sumShifts, regions, first, planes, range.reach, scratch);
+          stream, sumShifts, regions, first, planes, range, scratch);
     start({"chooseShifts",
            {static_cast<unsigned>(count), 1, 1},
            {kReduceThreads, 1, 1},
            {each * 12.0 * shifts, each * 12.0 * shifts}},
-          stream, chooseShifts, range, scratch, found + first);
+          stream, chooseShifts, regions, first, range, scratch, found + first);
   }
 }
 

@@ -31,6 +31,8 @@ struct MatchedRegions {
   const rg::motion::MatchedPart* parts;
   const uint32_t* starts;
   int count;
+  /// Of each region, not 0: nothing changed, so that kStillRange is enough; no data: of none.
+  const uint8_t* still = nullptr;
 };
 /// Sums and bounds of all shifts of as many regions as are looked at together.
 struct ShiftSums {

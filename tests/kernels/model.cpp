@@ -160,10 +160,14 @@ void launchSearch(const Memory& m) {
                     m.size.height + 2 * reach};
   const gpu::motion::PaddedView luma{m.size, reach, plane<uint8_t>(padded)};
   const gpu::motion::BoxesView boxes{plane<uint16_t>(padded)};
+  const gpu::motion::MatchedRegions regions{nullptr, nullptr, kRegions};
+  gpu::motion::findStill(regions, m.planes.planes[0], m.planes.planes[0], nullptr, nullptr);
+  gpu::motion::sumGradients(regions, m.planes.planes[0], nullptr, nullptr);
   gpu::motion::padLuma(m.planes.planes[0], luma, nullptr);
   gpu::motion::sumBoxes(luma, boxes, nullptr);
-  gpu::motion::searchShifts({nullptr, nullptr, kRegions}, {m.planes.planes[0], luma, boxes}, kRange,
+  gpu::motion::searchShifts(regions, {m.planes.planes[0], luma, boxes}, kRange,
                             {nullptr, nullptr, kRegions}, nullptr, nullptr);
+  gpu::motion::estimateMotion(regions, nullptr, nullptr, nullptr, nullptr);
 }
 
 /// A frame's way through what there is of the pipeline: method hybrid, segmentation, graph, the

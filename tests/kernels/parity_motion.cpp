@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/motion/shift_search.hpp"
+#include "kernels/motion_estimate.hpp"
 #include "kernels/shift_search.hpp"
 #include "tests/kernels/parity.hpp"
 
+#include <tuple>
 #include <vector>
 
 namespace rg::test {
@@ -56,6 +58,16 @@ struct Regions {
                      segmentation::RegionLabel::ofNumber(label)});
   }
   [[nodiscard]] int count() const { return static_cast<int>(starts.size()) - 1; }
+  [[nodiscard]] gpu::motion::MatchedRegions view() const {
+    return {parts.data(), starts.data(), count()};
+  }
+  [[nodiscard]] std::vector<uint8_t> unchanged(const Image<uint8_t>& now,
+                                               const Image<uint8_t>& before) const {
+    std::vector<uint8_t> still;
+    for (int i = 0; i < count(); ++i)
+      still.push_back(motion::isUnchanged(of(i), now, before) ? 1 : 0);
+    return still;
+  }
   [[nodiscard]] std::span<const MatchedPart> of(int region) const {
     const auto i = static_cast<size_t>(region);
     return std::span(parts).subspan(starts[i], starts[i + 1] - starts[i]);
@@ -70,12 +82,21 @@ void expectSame(const FoundShift& found, const FoundShift& expected) {
   ASSERT_EQ(found.isBeaten, expected.isBeaten);
 }
 
+/// The picture before, and what moved a little since then, but for the upper half of it.
+struct MovedPicture {
+  Image<uint8_t> before, now;
+  MovedPicture(Size size, int fill) : before(filled(size, fill)), now(size) {
+    for (int y = 0; y < size.height; ++y)
+      for (int x = 0; x < size.width; ++x)
+        now.at(x, y) = y < size.height / 2
+                           ? before.at(x, y)
+                           : static_cast<uint8_t>(levelAt(fill, x + 2, y + 1) + (x * y % 7 == 0));
+  }
+};
+
 void checkSearch(Size size, int fill, const motion::ShiftRange& range) {
-  const Image<uint8_t> before = filled(size, fill);
-  Image<uint8_t> now(size);
-  for (int y = 0; y < size.height; ++y)
-    for (int x = 0; x < size.width; ++x)
-      now.at(x, y) = static_cast<uint8_t>(levelAt(fill, x + 2, y + 1) + (x * y % 7 == 0));
+  const MovedPicture moved(size, fill);
+  const Image<uint8_t>&before = moved.before, &now = moved.now;
   motion::SearchedPicture searched;
   searched.build(before, range.reach + 1, oneThread());
   Plane<uint8_t> luma(now.view());
@@ -89,13 +110,26 @@ void checkSearch(Size size, int fill, const motion::ShiftRange& range) {
   const auto room = static_cast<size_t>(kTogether * gpu::motion::shiftsOf(range));
   std::vector<uint32_t> scratch(2 * room, 0xA5A5A5A5);
   std::vector<FoundShift> found(static_cast<size_t>(regions.count()));
+  const std::vector<uint8_t> still = regions.unchanged(now, before);
   gpu::motion::searchShifts(
-      {regions.parts.data(), regions.starts.data(), regions.count()}, {luma, previous.view, {sums}},
-      range, {scratch.data(), scratch.data() + room, kTogether}, found.data(), nullptr);
+      {regions.parts.data(), regions.starts.data(), regions.count(), still.data()},
+      {luma, previous.view, {sums}}, range, {scratch.data(), scratch.data() + room, kTogether},
+      found.data(), nullptr);
   motion::SearchScratch coreScratch;
-  for (int i = 0; i < regions.count(); ++i)
-    expectSame(found[static_cast<size_t>(i)],
-               motion::searchShifts(regions.of(i), now, searched, range, coreScratch));
+  for (int i = 0; i < regions.count(); ++i) {
+    const auto at = static_cast<size_t>(i);
+    const motion::ShiftRange& own = still[at] != 0 ? motion::kStillRange : range;
+    expectSame(found[at], motion::searchShifts(regions.of(i), now, searched, own, coreScratch));
+  }
+}
+
+template <class Check>
+void forMoved(const Check& check) {
+  for (const Size size : {Size{4, 1}, Size{13, 9}, Size{47, 40}, Size{64, 65}})
+    for (int fill = 0; fill < kFills && !::testing::Test::HasFailure(); ++fill) {
+      SCOPED_TRACE(std::to_string(size.width) + ", fill " + std::to_string(fill));
+      check(MovedPicture(size, fill), Regions(size));
+    }
 }
 
 }  // namespace
@@ -130,6 +164,63 @@ void parity_searchShifts() {
       checkSearch(size, fill, {2, 3});
       checkSearch(size, fill, {8, 9});
     }
+}
+
+void parity_findStill() {
+  int stills = 0;
+  forMoved([&](const MovedPicture& moved, const Regions& regions) {
+    std::vector<uint8_t> still(static_cast<size_t>(regions.count()), 7);
+    gpu::motion::findStill(regions.view(), Plane<uint8_t>(moved.now.view()),
+                           Plane<uint8_t>(moved.before.view()), still.data(), nullptr);
+    ASSERT_EQ(still, regions.unchanged(moved.now, moved.before));
+    for (const uint8_t is : still) stills += is;
+  });
+  EXPECT_GT(stills, 0);
+}
+
+void parity_sumGradients() {
+  forMoved([](const MovedPicture& moved, const Regions& regions) {
+    std::vector<motion::GradientProducts> sums(static_cast<size_t>(regions.count()));
+    gpu::motion::sumGradients(regions.view(), Plane<uint8_t>(moved.now.view()), sums.data(),
+                              nullptr);
+    for (int i = 0; i < regions.count(); ++i)
+      ASSERT_EQ(sums[static_cast<size_t>(i)], motion::sumGradients(regions.of(i), moved.now)) << i;
+  });
+}
+
+void parity_estimateMotion() {
+  forMoved([](const MovedPicture& moved, Regions regions) {
+    regions.starts.push_back(regions.starts.back());  // One without parts.
+    const auto count = static_cast<size_t>(regions.count());
+    std::vector<FoundShift> found(count);
+    std::vector<motion::GradientProducts> gradients(count);
+    std::vector<motion::RegionMotion> estimates(count, {7, 7, 7, 7});
+    for (size_t i = 0; i < count; ++i) {
+      const auto draw = [&](uint32_t what) {
+        return hashOf(static_cast<int>(i), moved.now.width(), what);
+      };
+      found[i].d = {static_cast<int>(draw(1) % 41) - 20, static_cast<int>(draw(2) % 3) - 1};
+      for (uint32_t k = 0; k < 9; ++k) found[i].sums[k] = (k == 4 ? 100 : 300) + draw(k) % 4000;
+      found[i].rival = i % 4 == 0 ? UINT32_MAX : 200 + draw(11) % 5000;
+      found[i].mean = draw(12) % 90000;
+      found[i].isBeaten = i % 5 == 4;
+      gradients[i] = motion::sumGradients(regions.of(static_cast<int>(i)), moved.now);
+    }
+    gpu::motion::estimateMotion(regions.view(), found.data(), gradients.data(), estimates.data(),
+                                nullptr);
+    for (size_t i = 0; i < count; ++i) {
+      uint64_t pixels = 0;
+      for (const MatchedPart& part : regions.of(static_cast<int>(i))) pixels += part.pixels();
+      const motion::GradientProducts& g = gradients[i];
+      const motion::RegionMotion expected =
+          pixels == 0 ? motion::RegionMotion{}
+                      : motion::estimateMotion(found[i], {g.xx, g.xy, g.yy, pixels});
+      ASSERT_EQ(
+          std::tuple(estimates[i].dx, estimates[i].dy, estimates[i].sad, estimates[i].reliability),
+          std::tuple(expected.dx, expected.dy, expected.sad, expected.reliability))
+          << i;
+    }
+  });
 }
 
 }  // namespace rg::test
