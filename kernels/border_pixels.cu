@@ -38,7 +38,10 @@ template <class Sums, class Ids>
 struct Found {
   Sums &all, &pure;
   Ids& ids;
-  int count;
+  int count = 0;
+
+  __device__ Found(Sums& ofAll, Sums& ofPure, Ids& ofRegions)
+      : all(ofAll), pure(ofPure), ids(ofRegions) {}
 
   __device__ static int at(int k) { return k * kThreads + static_cast<int>(threadIdx.x); }
   __device__ bool isSure(int k) const { return pure[at(k)] != 0; }
@@ -76,7 +79,6 @@ template <class Sums, class Ids>
 __device__ void collect(const RefinedCells& cells, Point cell, Found<Sums, Ids>& found) {
   const uint64_t own = packed(cells, cell);
   const bool isOneColour = isPure(cells, cell), isOwnApart = isApart(cells, cell);
-  found.count = 0;
   found.take(cells.ids.at(cell.x, cell.y), isOneColour ? own : 0, isOneColour);
   for (int y = cell.y - 1; y <= cell.y + 1; ++y)
     for (int x = cell.x - 1; x <= cell.x + 1; ++x) {
@@ -116,7 +118,7 @@ __global__ void findSides(const __grid_constant__ RefinedCells cells, SideChoice
     choices[i].count = 1;
     return;
   }
-  Found found{all, pure, ids, 0};
+  Found found(all, pure, ids);
   collect(cells, cell, found);
   choose(found, choices[i]);
 }
