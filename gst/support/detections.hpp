@@ -31,7 +31,7 @@ class Detections {
 
   /// By number: of all objects that live, told or not.
   std::vector<Seen> seen_, before_;
-  GstBuffer* buffer_ = nullptr;
+  [[maybe_unused]] GstBuffer* buffer_ = nullptr;  ///< Not where there is no GstAnalytics.
 };
 
 }  // namespace rg
