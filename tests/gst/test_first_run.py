@@ -138,8 +138,8 @@ class FirstRun(unittest.TestCase):
 
     def test_copied_examples_say_that_the_elements_are_missing(self):
         environment = {**os.environ, 'GST_PLUGIN_PATH': '', 'GST_REGISTRY': f'{self.folder}/none'}
-        if subprocess.run(['gst-inspect-1.0', '--exists', 'regiontrack'], env=environment,
-                          check=False).returncode == 0:
+        if subprocess.run(['gst-inspect-1.0', 'regiontrack'], env=environment, check=False,
+                          stdout=subprocess.DEVNULL).returncode == 0:
             self.skipTest('the elements are installed')
         done = subprocess.run([self.copied() / 'file.sh', sys.argv[0]], capture_output=True,
                               text=True, env=environment, timeout=300, check=False)
