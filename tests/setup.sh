@@ -12,7 +12,7 @@ packages=(
   gobject-introspection libgirepository1.0-dev
   # checks and tests
   clang-format clang-tidy libclang-rt-dev libgtest-dev libgmock-dev nlohmann-json3-dev
-  binutils locales valgrind libc6-dbg
+  binutils debootstrap locales valgrind libc6-dbg
   python3 python3-numpy python3-opencv python3-scipy python3-jsonschema
   python3-gi gir1.2-gstreamer-1.0 gir1.2-gst-plugins-base-1.0 gir1.2-gst-rtsp-server-1.0
   # running pipelines
