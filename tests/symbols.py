@@ -2,12 +2,13 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Checks what the built files export, with nm.
 
-usage: symbols.py PLUGIN LIBRARY HEADER...
+usage: symbols.py PLUGIN LIBRARY HEADER... -- ARCHIVE...
 
 PLUGIN exports gst_plugin_* and nothing else. LIBRARY exports the functions that the HEADERs declare
-for applications and for the plugin, each named gst_*region*, and nothing else. Neither asks for the
-time of day, chance, or the user's locale: results depend on frames and their times alone. Exits 1
-otherwise.
+for applications and for the plugin, each named gst_*region*, and nothing else. Neither LIBRARY nor
+the ARCHIVEs that the plugin is made of ask for the time of day, chance, or the user's locale:
+results depend on frames and their times alone. (CUDA's runtime does, and is in the plugin beside
+them.) Exits 1 otherwise.
 """
 import pathlib
 import re
@@ -21,19 +22,22 @@ CLOCKS_CHANCE_LOCALE = re.compile(
     r'_ZNSt13random_device.*|setlocale|localeconv|strto(d|f|ld)|atof|v?sscanf)')
 
 
-def rows_of(library, which):
-    out = subprocess.run(['nm', '-D', which, '--without-symbol-versions', library],
+def rows_of(file, *which):
+    out = subprocess.run(['nm', '--without-symbol-versions', *which, file],
                          capture_output=True, text=True, check=True).stdout
     return [line.split() for line in out.splitlines()]
 
 
 def exported(library):
     """Names of all dynamic symbols that the file defines; A is a version's own name."""
-    return {row[2] for row in rows_of(library, '--defined-only') if len(row) == 3 and row[1] != 'A'}
+    return {row[2] for row in rows_of(library, '-D', '--defined-only')
+            if len(row) == 3 and row[1] != 'A'}
 
 
-def imported(library):
-    return {row[-1] for row in rows_of(library, '--undefined-only')}
+def wanted(file):
+    """Names that a library, or the objects of an archive, ask others for."""
+    which = [] if file.endswith('.a') else ['-D']
+    return {row[-1] for row in rows_of(file, '--undefined-only', *which) if row}
 
 
 def declared(headers):
@@ -47,10 +51,11 @@ def declared(headers):
 
 
 def main():
-    if len(sys.argv) < 4:
+    if len(sys.argv) < 6 or '--' not in sys.argv[4:-1]:
         sys.exit(__doc__)
+    end = sys.argv.index('--')
     plugin, library = exported(sys.argv[1]), exported(sys.argv[2])
-    public = declared(sys.argv[3:])
+    public = declared(sys.argv[3:end])
     findings = [f'{sys.argv[1]}: exports {name}'
                 for name in sorted(plugin) if not name.startswith('gst_plugin_')]
     findings += [] if plugin else [f'{sys.argv[1]}: exports nothing']
@@ -60,8 +65,8 @@ def main():
                  for name in sorted(public - library)]
     findings += [f'{sys.argv[2]}: exports {name}, which is not named gst_*region*'
                  for name in sorted(library) if not re.match(r'gst_.*region', name)]
-    findings += [f'{library}: asks for {name}' for library in sys.argv[1:3]
-                 for name in sorted(imported(library)) if CLOCKS_CHANCE_LOCALE.fullmatch(name)]
+    findings += [f'{file}: asks for {name}' for file in [sys.argv[2], *sys.argv[end + 1:]]
+                 for name in sorted(wanted(file)) if CLOCKS_CHANCE_LOCALE.fullmatch(name)]
     print('\n'.join(findings + [
         f'symbols: plugin {len(plugin)}, library {len(library)}, {len(findings)} findings']))
     sys.exit(1 if findings else 0)

@@ -17,11 +17,18 @@ std::string activeBackend(GstElement* element) {
   return name;
 }
 
+std::string activeBackend(const Chain& chain) {
+  GstElement* element = chain.element("bgremove");
+  std::string name = activeBackend(element);
+  gst_object_unref(element);
+  return name;
+}
+
 class BackendWithoutGpu : public ::testing::Test {
  protected:
   void SetUp() override {
     Chain chain("bgremove backend=auto");
-    if (activeBackend(chain.element("bgremove")) != "cpu") GTEST_SKIP() << "there is a GPU";
+    if (activeBackend(chain) != "cpu") GTEST_SKIP() << "there is a GPU";
   }
 };
 
@@ -29,7 +36,7 @@ TEST_F(BackendWithoutGpu, AutoFindsObjectsOnTheCpu) {
   Chain chain("bgremove training-frames=2 backend=auto ! hsvsegment ! srg ! prmmotion ! mrfmerge");
   int index = 0;
   EXPECT_TRUE(showObjects(chain, index));
-  EXPECT_EQ(activeBackend(chain.element("bgremove")), "cpu");
+  EXPECT_EQ(activeBackend(chain), "cpu");
   EXPECT_EQ(chain.message(GST_MESSAGE_WARNING), nullptr);
 }
 

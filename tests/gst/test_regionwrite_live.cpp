@@ -166,7 +166,12 @@ TEST_F(RegionWriteLive, AReaderThatDiesIsFollowedByTheNext) {
   });
   EXPECT_EQ(frameOf(text), 7);
   EXPECT_EQ(droppedBy(chain), 5u);
-  EXPECT_NE(chain.complaint(GST_MESSAGE_WARNING).find("Broken pipe"), std::string::npos);
+  // The first line finds a broken pipe, the next ones find none: the latest of those before a frame
+  // is told.
+  const std::string warning = chain.complaint(GST_MESSAGE_WARNING);
+  EXPECT_TRUE(warning.find("Broken pipe") != std::string::npos ||
+              warning.find("nobody reads from this pipe") != std::string::npos)
+      << warning;
   EXPECT_EQ(chain.complaint(GST_MESSAGE_WARNING), "");
   EXPECT_EQ(chain.complaint(GST_MESSAGE_ERROR), "");
   close(reader);

@@ -20,10 +20,12 @@ constexpr Caps kCaps{"I420", 96, 72};
 constexpr int kFrames = 16, kFaulty = 10;
 
 std::string activeBackend(const Chain& chain) {
+  GstElement* element = chain.element("bgremove");
   gchar* text = nullptr;
-  g_object_get(chain.element("bgremove"), "active-backend", &text, nullptr);
+  g_object_get(element, "active-backend", &text, nullptr);
   std::string name(text);
   g_free(text);
+  gst_object_unref(element);
   return name;
 }
 
