@@ -164,6 +164,7 @@ TEST(AnalysisHeightTest, StaysAsItIsWhileRunning) {
   int rows = 0;
   g_object_get(track, "analysis-height", &rows, nullptr);
   EXPECT_EQ(rows, 64);
+  gst_object_unref(track);
 }
 
 }  // namespace

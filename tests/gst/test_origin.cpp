@@ -136,6 +136,7 @@ TEST(Origin, IsRefusedWhereItCantBeTold) {
     EXPECT_EQ(textOf(element, "tags"), "site=north, lane=7");
     g_object_set(element, "source", nullptr, "tags", "", nullptr);
     EXPECT_EQ(textOf(element, "source") + textOf(element, "tags"), "");
+    gst_object_unref(element);
   }
 }
 
