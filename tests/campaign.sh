@@ -99,6 +99,7 @@ run_threads() {
   ninja -C "$tsan_build" tests/stress/stress >/dev/null
   local stress=("$tsan_build/tests/stress/stress")
   export TSAN_OPTIONS=halt_on_error=1:history_size=4:second_deadlock_stack=1
+  TSAN_OPTIONS+=:suppressions=$root/tests/tsan.supp:print_suppressions=0
   export GST_REGISTRY=$tsan_build/gst.reg
   if ((is_short)); then
     "${stress[@]}" --pushes 1000
