@@ -48,6 +48,11 @@ class PixelFilter : public StageOwner<Settings, Stage> {
     analysisHeight_ = this->currentSettings().analysisHeight;
     return StageOwner<Settings, Stage>::start();
   }
+  /// Pictures may have a copy on the device that goes now.
+  void stop() override {
+    StageOwner<Settings, Stage>::stop();
+    pool_.drop();
+  }
   void reset(Reset what) override {
     if (what == Reset::Stream) pool_.drop();
     StageOwner<Settings, Stage>::reset(what);

@@ -95,6 +95,19 @@ TEST_F(BgRemoveBackend, TheSizeMayChangeWithObjectsInView) {
   EXPECT_EQ(activeBackend(gpu), "cuda: host");
 }
 
+/// The next start may be on another device.
+TEST_F(BgRemoveBackend, NothingIsLeftOnTheDeviceWhenItStops) {
+  const int64_t before = gpu::shim::countAllocations();
+  Chain chain("bgremove backend=cuda", kCaps);
+  for (int i = 0; i < 5; ++i) EXPECT_TRUE(chain.pass(busyFrame(kCaps, i)));
+  EXPECT_GT(gpu::shim::countAllocations(), before);
+  GstElement* element = chain.element("bgremove");
+  gst_element_set_state(element, GST_STATE_NULL);
+  EXPECT_EQ(gpu::shim::countAllocations(), before);
+  EXPECT_EQ(activeBackend(chain), "");
+  gst_object_unref(element);
+}
+
 TEST_F(BgRemoveBackend, ANumberThatNoDeviceHasIsAnError) {
   GstElement* element = gst_element_factory_make("bgremove", nullptr);
   gst_object_ref_sink(element);
