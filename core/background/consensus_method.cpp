@@ -11,10 +11,18 @@ namespace rg::background {
 namespace {
 
 constexpr int kUsualThreshold = 5;  ///< Grey levels that the darkest pixel may be off.
+constexpr int kLeastThreshold = 2;  ///< Where the scene has little contrast.
 constexpr int kBrightness = 20;     ///< Of 256: share of the brightness that is added to it.
 constexpr int kMajority = 115;      ///< Of 256: share of foreground that keeps a pixel.
 
-constexpr uint32_t kOddShare = 16;          ///< Of 256: foreground that makes us look at the scene.
+/// Grey levels between the darkest and the brightest of a scene on a common day, but for a 64th of
+/// the pixels on either side. Fog and night leave less, and as much less of any difference in it.
+constexpr int kUsualRange = 180;
+constexpr int kExtremes = 4;  ///< Of 256: pixels on either side that are not looked at.
+constexpr int kFullContrast = 256;
+constexpr uint32_t kContrastFrames = 16;  ///< From one look at it to the next.
+
+constexpr uint32_t kOddShare = 8;           ///< Of 256: foreground that makes us look at the scene.
 constexpr uint32_t kLightShare = 102;       ///< Of 256: foreground that asks for a reason.
 constexpr uint32_t kOtherSceneShare = 192;  ///< Of 256: foreground that no object covers.
 
@@ -35,6 +43,8 @@ class ConsensusMethod final : public MethodModel {
     return frame_.value() < static_cast<uint32_t>(job.params.trainingFrames);
   }
   void start(const MethodJob& job, Foreground& out);
+  void followContrast(const MethodJob& job);
+  [[nodiscard]] Tolerance toleranceOf(const MethodJob& job) const;
   bool isTooDark(const MethodJob& job, Foreground& out);
   void watch(const MethodJob& job, uint64_t differing, Foreground& out);
   SceneEvent followCamera(const MethodJob& job);
@@ -57,6 +67,8 @@ class ConsensusMethod final : public MethodModel {
   BitMask near_;  ///< The foreground and two pixels round it.
   BitMask dark_, shadow_;
   FrameCount frame_;
+  int contrast_ = kFullContrast;
+  int64_t litFrames_ = INT32_MAX;  ///< Since the light was switched.
   bool isDark_ = false;
   Point shift_;                   ///< The camera's, from the model.
   SmoothPicture spare_;           ///< For shifting.
@@ -73,6 +85,7 @@ void ConsensusMethod::prepare(const Picture& picture) {
 }
 
 void ConsensusMethod::start(const MethodJob& job, Foreground& out) {
+  followContrast(job);
   job.on.fillFrom(smooth_, model_);
   previousRaw_.clear();
   clear(still_);
@@ -83,9 +96,24 @@ void ConsensusMethod::start(const MethodJob& job, Foreground& out) {
   out.mask.fill(kBackgroundPixel);
 }
 
-Tolerance toleranceOf(const Params& params) {
-  return params.threshold > 0 ? Tolerance{params.threshold, 0}
-                              : Tolerance{kUsualThreshold, kBrightness};
+/// Of kFullContrast: by how much grey levels of the scene differ, against a common day's.
+int contrastOf(const Histogram& levels) {
+  const int range = quantile(levels, 256 - kExtremes) - quantile(levels, kExtremes);
+  return std::clamp(kFullContrast * range / kUsualRange, 1, kFullContrast);
+}
+
+void ConsensusMethod::followContrast(const MethodJob& job) {
+  contrast_ = contrastOf(job.on.countLevels(smooth_.planes[0]));
+}
+
+/// A model that was relit is known by its histogram only, until it has learnt in the new light.
+Tolerance ConsensusMethod::toleranceOf(const MethodJob& job) const {
+  if (job.params.threshold > 0) return {job.params.threshold, 0};
+  const int contrast = litFrames_ < job.clock.frames(2.0) ? kFullContrast : contrast_;
+  const auto share = [&](int level) {
+    return (level * contrast + kFullContrast / 2) / kFullContrast;
+  };
+  return {std::max(share(kUsualThreshold), kLeastThreshold), share(kBrightness)};
 }
 
 /// In the dark there is nothing to be told from noise, and nothing to be learnt.
@@ -109,7 +137,7 @@ SceneEvent ConsensusMethod::followCamera(const MethodJob& job) {
     return SceneEvent::None;
   }
   job.on.shiftPicture(shift_, spare_, smooth_);
-  job.on.judge(smooth_, model_, toleranceOf(job.params), verdicts_);
+  job.on.judge(smooth_, model_, toleranceOf(job), verdicts_);
   offFrames_ = shift_ == before ? offFrames_ + 1 : 0;
   if (offFrames_ >= job.clock.frames(5.0)) return SceneEvent::CameraMoved;
   const bool isNews = std::exchange(calmFrames_, 0) >= job.clock.frames(1.0);
@@ -150,10 +178,11 @@ SceneEvent ConsensusMethod::followLight(const MethodJob& job) {
   const uint64_t before = job.on.countSet(verdicts_.raw);
   if (before * 256 < pixels * kLightShare) return SceneEvent::None;
   job.on.paintModel(model_, shown_);
-  const Tolerance tolerance = toleranceOf(job.params);
+  const Tolerance tolerance = toleranceOf(job);
   const LevelMaps maps = job.on.matchLight(shown_, smooth_);
   if (uint64_t{job.on.countApart(shown_, smooth_, maps, model_, tolerance)} * 2 < before) {
     job.on.relight(maps, model_);
+    litFrames_ = 0;
     clear(still_);
     job.on.judge(smooth_, model_, tolerance, verdicts_);
     return SceneEvent::LightSwitched;
@@ -173,7 +202,7 @@ void ConsensusMethod::refine(const MethodJob& job) {
   job.on.keepSupported(mask_, verdicts_.strong, leastStrongPx(pixels));
   job.on.fillHoles(mask_, pixels / 50);
   if (shift_ != Point{}) return;  // The picture as it came is elsewhere.
-  job.on.trimBorder(*job.picture, smooth_, model_, toleranceOf(job.params), mask_);
+  job.on.trimBorder(*job.picture, smooth_, model_, toleranceOf(job), mask_);
 }
 
 void ConsensusMethod::clean(const MethodJob& job) {
@@ -190,7 +219,7 @@ void ConsensusMethod::clean(const MethodJob& job) {
 void ConsensusMethod::dissolveGhosts(const MethodJob& job) {
   const int64_t absorbFrames = job.clock.frames(job.params.absorbTimeS);
   const AgeScale scale = AgeScale::upTo(absorbFrames);
-  job.on.followStill(smooth_, model_, toleranceOf(job.params), mask_, scale.mostAge(frame_.value()),
+  job.on.followStill(smooth_, model_, toleranceOf(job), mask_, scale.mostAge(frame_.value()),
                      still_);
   const auto usual = static_cast<int>(std::clamp<int64_t>(job.clock.frames(0.4), 4, 60000));
   const int leastAge = isFirst(job) ? 4 : usual;
@@ -231,7 +260,8 @@ void ConsensusMethod::segment(const MethodJob& job, Foreground& out) {
     return;
   }
   ++frame_;
-  job.on.smoothAndJudge(*job.picture, model_, toleranceOf(job.params), {smooth_, verdicts_});
+  ++litFrames_;
+  job.on.smoothAndJudge(*job.picture, model_, toleranceOf(job), {smooth_, verdicts_});
   const auto pixels = static_cast<uint64_t>(smooth_.size().area());
   const uint64_t differing = job.on.countSet(verdicts_.raw);
   if ((isDark_ || differing * 256 >= pixels * kLightShare) && isTooDark(job, out)) return;
@@ -241,6 +271,7 @@ void ConsensusMethod::segment(const MethodJob& job, Foreground& out) {
   dissolveGhosts(job);
   learnFrame(job);
   findShadow(job);
+  if (frame_.value() % kContrastFrames == 0) followContrast(job);
   job.on.paintForeground(mask_, shadow_, shift_, out.mask);
 }
 

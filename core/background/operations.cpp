@@ -67,6 +67,10 @@ void Operations::shiftPicture(Point shift, SmoothPicture& spare, SmoothPicture& 
   background::shiftPicture(shift, executor_, spare, picture);
 }
 
+Histogram Operations::countLevels(const Image<uint8_t>& plane) {
+  return rg::countLevels(plane, executor_);
+}
+
 LevelMaps Operations::matchLight(const ShownModel& shown, const SmoothPicture& picture) {
   return background::matchLight(shown, picture, executor_);
 }

@@ -13,6 +13,7 @@
 #include "core/background/shadows/cast_shadows.hpp"
 #include "core/base/bit_mask.hpp"
 #include "core/base/components.hpp"
+#include "core/base/histogram.hpp"
 #include "core/base/mask_gaps.hpp"
 
 #include <array>
@@ -55,6 +56,7 @@ class Operations {
   virtual bool hasSwitchedColour(const SmoothPicture& picture, const ConsensusBackground& model);
   virtual Point findShift(const SmoothPicture& picture, const ConsensusBackground& model);
   virtual void shiftPicture(Point shift, SmoothPicture& spare, SmoothPicture& picture);
+  virtual Histogram countLevels(const Image<uint8_t>& plane);
   virtual LevelMaps matchLight(const ShownModel& shown, const SmoothPicture& picture);
   virtual uint32_t countApart(const ShownModel& shown, const SmoothPicture& picture,
                               const LevelMaps& maps, const ConsensusBackground& model,

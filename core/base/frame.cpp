@@ -8,8 +8,13 @@ namespace rg {
 int planeCount(PixelFormat format) {
   switch (format) {
     case PixelFormat::Nv12:
+    case PixelFormat::Nv21:
+    case PixelFormat::P010:
       return 2;
+    case PixelFormat::Gbr:
     case PixelFormat::I420:
+    case PixelFormat::Y42b:
+    case PixelFormat::I420Ten:
       return 3;
     default:
       return 1;
@@ -28,9 +33,20 @@ Size planeBytes(PixelFormat format, Size size, int plane) {
     case PixelFormat::Rgb:
       return {3 * size.width, size.height};
     case PixelFormat::Nv12:
+    case PixelFormat::Nv21:
       return plane == 0 ? size : Size{2 * chroma.width, chroma.height};
+    case PixelFormat::P010:
+      return plane == 0 ? Size{2 * size.width, size.height} : Size{4 * chroma.width, chroma.height};
     case PixelFormat::I420:
       return plane == 0 ? size : chroma;
+    case PixelFormat::I420Ten:
+      return plane == 0 ? Size{2 * size.width, size.height} : Size{2 * chroma.width, chroma.height};
+    case PixelFormat::Y42b:
+      return plane == 0 ? size : Size{chroma.width, size.height};
+    case PixelFormat::Yuy2:
+    case PixelFormat::Uyvy:
+      return {4 * chroma.width, size.height};
+    case PixelFormat::Gbr:
     case PixelFormat::Gray8:
       return size;
   }
@@ -63,6 +79,20 @@ Result<Frame> Frame::make(const FrameLayout& layout, std::span<const PlaneMemory
     frame.planes_[static_cast<size_t>(i)] = {memory.data, need, memory.strideBytes};
   }
   return frame;
+}
+
+Frame Frame::ofOneTime() const {
+  if (!layout_.isInterlaced) return *this;
+  Frame field;
+  field.layout_ = layout_;
+  field.layout_.isInterlaced = false;
+  field.layout_.size.height = (layout_.size.height + 1) / 2;
+  for (size_t i = 0; i < planes_.size(); ++i) {
+    field.planes_[i] = planes_[i];
+    field.planes_[i].size.height = (planes_[i].size.height + 1) / 2;
+    field.planes_[i].strideBytes *= 2;
+  }
+  return field;
 }
 
 }  // namespace rg

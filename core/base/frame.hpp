@@ -12,8 +12,25 @@
 
 namespace rg {
 
-/// Byte orders as GStreamer names them.
-enum class PixelFormat : uint8_t { Bgrx, Rgbx, Bgra, Rgba, Bgr, Rgb, Nv12, I420, Gray8 };
+/// Byte orders as GStreamer names them, without its _LE: words have their low byte first.
+enum class PixelFormat : uint8_t {
+  Bgrx,
+  Rgbx,
+  Bgra,
+  Rgba,
+  Bgr,
+  Rgb,
+  Gbr,  ///< A plane each of green, blue and red.
+  Nv12,
+  Nv21,
+  I420,
+  Y42b,
+  Yuy2,
+  Uyvy,
+  I420Ten,  ///< Words, of which the lower ten bits count.
+  P010,     ///< Words, of which the upper ten bits count.
+  Gray8
+};
 
 /// Luma weights of Y'CbCr: ITU-R BT.601, BT.709, BT.2020, SMPTE 240M, FCC.
 enum class YuvMatrix : uint8_t { Bt601, Bt709, Bt2020, Smpte240m, Fcc };
@@ -26,6 +43,7 @@ struct FrameLayout {
   Size size;
   YuvMatrix matrix = YuvMatrix::Bt601;
   YuvRange range = YuvRange::Limited;
+  bool isInterlaced = false;  ///< Odd rows are of another time than even ones.
   friend bool operator==(const FrameLayout&, const FrameLayout&) = default;
 };
 
@@ -48,10 +66,14 @@ class Frame {
 
   [[nodiscard]] const FrameLayout& layout() const { return layout_; }
   [[nodiscard]] Size size() const { return layout_.size; }
-  /// Rows of bytes: a packed row has 3 or 4 bytes a pixel, NV12's second plane Cb and Cr in turn.
+  /// Rows of bytes: a packed row has 2, 3 or 4 bytes a pixel, NV12's second plane Cb and Cr in
+  /// turn.
   [[nodiscard]] ImageView<const uint8_t> plane(int i) const {
     return planes_[static_cast<size_t>(i)];
   }
+  /// What may be looked at as one picture: the frame, or of an interlaced one the field that has
+  /// the top line, which is every second row of each plane, as a frame of (height + 1) / 2 rows.
+  [[nodiscard]] Frame ofOneTime() const;
 
  private:
   Frame() = default;

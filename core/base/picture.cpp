@@ -5,29 +5,79 @@
 #include "core/simd/base/picture_rows.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace rg {
-void loadPlanes(const Frame& frame, const Executor& executor, const PicturePlanes& to) {
+namespace {
+
+constexpr int kBlock = 2048;  // Columns whose samples are put side by side at a time; even.
+
+ColourRows rowsOf(const PicturePlanes& planes, int y) {
+  return {planes.red.row(y), planes.green.row(y), planes.blue.row(y), planes.luma.row(y)};
+}
+
+/// Samples of a row, side by side: as they lie where they do, else put there in `room`.
+const uint8_t* sideBySide(const SpacedRow& row, int count, uint8_t* room) {
+  if (row.stepBytes == 1) return row.first;
+  simd::gatherRow(row, count, room);
+  return room;
+}
+
+/// A row of Y'CbCr that lies in another way than loadYuvRow takes it.
+void loadSpacedRow(const SpacedRow& luma, const SpacedRow& cb, const SpacedRow& cr, int width,
+                   const YuvToRgb& k, const ColourRows& to) {
+  std::array<uint8_t, kBlock> lumaRoom;
+  std::array<uint8_t, kBlock / 2> cbRoom, crRoom;
+  const auto from = [](const SpacedRow& row, int at) {
+    return SpacedRow{row.first + ptrdiff_t{at} * row.stepBytes, row.stepBytes, row.hasTenBits};
+  };
+  for (int x = 0; x < width; x += kBlock) {
+    const int count = std::min(kBlock, width - x), chroma = (count + 1) / 2;
+    simd::loadYuvRow({sideBySide(from(luma, x), count, lumaRoom.data()),
+                      sideBySide(from(cb, x / 2), chroma, cbRoom.data()),
+                      sideBySide(from(cr, x / 2), chroma, crRoom.data()), 1},
+                     count, k, {to.red + x, to.green + x, to.blue + x, to.luma + x});
+  }
+}
+
+void loadYuvRow(const Frame& frame, const YuvOrder& order, int y, const YuvToRgb& k,
+                const ColourRows& to) {
+  const auto rowOf = [&](const SamplePlace& place, int row) {
+    return SpacedRow{frame.plane(place.plane).row(row) + place.offsetBytes, place.stepBytes,
+                     order.hasTenBits};
+  };
+  const int chroma = y >> order.chromaRowShift;
+  const SpacedRow luma = rowOf(order.luma, y), cb = rowOf(order.cb, chroma),
+                  cr = rowOf(order.cr, chroma);
+  const bool areCbCr = cb.stepBytes == 2 && cr.first == cb.first + 1;
+  if (luma.stepBytes == 1 && (cb.stepBytes == 1 || areCbCr))
+    simd::loadYuvRow({luma.first, cb.first, cr.first, cb.stepBytes}, frame.size().width, k, to);
+  else
+    loadSpacedRow(luma, cb, cr, frame.size().width, k, to);
+}
+
+}  // namespace
+
+void loadPlanes(const Frame& given, const Executor& executor, const PicturePlanes& to) {
+  const Frame frame = given.ofOneTime();
+  const int rowsEach = given.layout().isInterlaced ? 2 : 1;
   const FrameLayout& layout = frame.layout();
-  const Size size = layout.size;
+  const int width = layout.size.width;
   const YuvToRgb k = yuvToRgb(layout.matrix, layout.range);
-  executor.forRows(size.height, [&](int first, int last) {
-    for (int y = first; y < last; ++y) {
+  const auto order = yuvOrderOf(layout.format);
+  executor.forRows(given.size().height, [&](int first, int last) {
+    for (int row = first; row < last; ++row) {
+      const int y = row / rowsEach;
       const uint8_t* from = frame.plane(0).row(y);
-      if (layout.format == PixelFormat::Gray8) {
-        std::copy_n(from, size.width, to.luma.row(y));
-        continue;
-      }
-      const ColourRows rows{to.red.row(y), to.green.row(y), to.blue.row(y), to.luma.row(y)};
-      if (layout.format == PixelFormat::Nv12) {
-        const uint8_t* chroma = frame.plane(1).row(y / 2);
-        simd::loadYuvRow({from, chroma, chroma + 1, 2}, size.width, k, rows);
-      } else if (layout.format == PixelFormat::I420) {
-        simd::loadYuvRow({from, frame.plane(1).row(y / 2), frame.plane(2).row(y / 2), 1},
-                         size.width, k, rows);
-      } else {
-        simd::loadPackedRow(from, size.width, orderOf(layout.format), rows);
-      }
+      if (layout.format == PixelFormat::Gray8)
+        std::copy_n(from, width, to.luma.row(row));
+      else if (order)
+        loadYuvRow(frame, *order, y, k, rowsOf(to, row));
+      else if (layout.format == PixelFormat::Gbr)
+        simd::loadPlanarRow(frame.plane(2).row(y), from, frame.plane(1).row(y), width,
+                            rowsOf(to, row));
+      else
+        simd::loadPackedRow(from, width, orderOf(layout.format), rowsOf(to, row));
     }
   });
 }

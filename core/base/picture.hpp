@@ -15,8 +15,10 @@ struct PicturePlanes {
   ImageView<uint8_t> red, green, blue, luma;
 };
 
-/// Converts a frame. Y'CbCr by the layout's matrix and range, a chroma sample serves its 2x2
-/// pixels. Each pixel depends on its own samples only: the same bits for any number of threads.
+/// Converts a frame. Y'CbCr by the layout's matrix and range, a chroma sample serves the pixels
+/// that it lies over; of ten bits the upper 8 count. In an interlaced frame a row of the field with
+/// the top line serves the row below it, too: things that move would be combs. Each pixel depends
+/// on its own samples only: the same bits for any number of threads.
 void loadPlanes(const Frame& frame, const Executor& executor, const PicturePlanes& to);
 
 /// Full-range R'G'B' of 8 bits. The first stage makes it, later stages find it in the results, so

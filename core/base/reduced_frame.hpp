@@ -20,11 +20,14 @@ namespace rg {
 /// than the frame, 1/128 of its height at least. rows = 0: as it is.
 [[nodiscard]] Size reducedSize(Size frame, int rows);
 
+struct YuvOrder;
+
 class ReducedFrame {
  public:
   /// Takes a frame's samples at a size that reducedSize() gave. Each is the rounded mean of those
-  /// that it covers: of columns x · from / to … (x + 1) · from / to − 1, and of rows alike.
-  /// Y'CbCr becomes I420, packed colours RGB; matrix and range stay.
+  /// that it covers: of columns x · from / to … (x + 1) · from / to − 1, and of rows alike. Of an
+  /// interlaced frame those of one field, which may have fewer rows; then some serve twice.
+  /// Y'CbCr becomes I420 of 8 bits, colours RGB; matrix and range stay.
   void load(const Frame& frame, Size size, const Executor& executor);
   /// Points into this object, until it is loaded again.
   [[nodiscard]] Frame view() const;
@@ -36,14 +39,18 @@ class ReducedFrame {
     uint8_t* to;                       ///< Its mean in the first row,
     ptrdiff_t strideBytes, stepBytes;  ///< and the way to the next row's and column's.
   };
-  /// A plane of samples that lie `step` bytes apart.
+  /// A plane of samples that lie `step` bytes apart; or words of ten bits, one behind another.
   struct Samples {
     ImageView<const uint8_t> bytes;
     int step;
     Size size, to;
+    bool hasTenBits = false;
   };
+  void loadYuv(const Frame& frame, const YuvOrder& order, const Executor& executor);
+  void loadColours(const Frame& frame, const Executor& executor);
   void reduce(const Samples& from, std::span<const Channel> channels, const Executor& executor);
   void reduceRow(const Samples& from, std::span<const Channel> channels, int y) const;
+  [[nodiscard]] Channel planeOf(size_t plane, Size size, int offsetBytes);
 
   FrameLayout layout_;
   std::array<Image<uint8_t>, Frame::kMaxPlanes> planes_;

@@ -10,6 +10,8 @@
 // The reliability is what the region itself saw: low where the luma is flat, or changes along one
 // direction only, where another shift matches nearly as well, where the match is poor or differs
 // from the neighbours', where part of it lies outside the previous frame.
+// Method::Literal is what the paper says and no more: all pixels of each region, whole pixels, and
+// nothing of the neighbours (core/motion/literal_search.hpp).
 // Determinism: integer sums. Tie-break: smallest (SAD, |d|², dy, dx).
 #pragma once
 
@@ -48,9 +50,16 @@ struct Motion {
   void dropSources() { graph.reset(); }
 };
 
+enum class Method : uint8_t {
+  Refined,  ///< Pixels away from borders, then fractions of a pixel and the neighbours' say.
+  Literal,  ///< Whole pixels by the SAD of all of a region's pixels, each region alone.
+};
+
 struct Params {
   int maxShiftPx = 20;     ///< Searched in both directions of both axes. 1 … 64.
   bool isSubpixel = true;  ///< False: the best whole-pixel shifts, of no neighbour's influence.
+                           ///< Of Method::Refined.
+  Method method = Method::Refined;
 };
 
 class Stage {

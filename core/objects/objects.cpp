@@ -26,21 +26,6 @@ namespace {
 
 constexpr int64_t kLongestStepNs = 10'000'000'000;  // Sums of these last for 900 million frames.
 
-MergeWeights weightsOf(const Params& params) {
-  const auto q8 = [](double value) {
-    return static_cast<int32_t>(std::lround(std::clamp(value, 0.0, 1000.0) * 256));
-  };
-  MergeWeights weights;
-  weights.motion = q8(params.motionWeight);
-  weights.border = q8(params.borderWeight);
-  weights.arc = q8(params.arcWeight);
-  weights.prediction = q8(params.predictionWeight);
-  weights.motionThreshold =
-      std::max(1, static_cast<int32_t>(std::lround(std::clamp(params.motionThresholdPx, 0.0, 64.0) *
-                                                   motion::kMotionUnit)));
-  return weights;
-}
-
 class CpuObjectStage final : public Stage {
  public:
   explicit CpuObjectStage(Context context) : context_(std::move(context)) {}
@@ -53,6 +38,8 @@ class CpuObjectStage final : public Stage {
 
  private:
   void mergeRegions(const Input& in, const Params& params, int64_t stepNs, Objects& objects);
+  void mergeByEnergy(const motion::Motion& motion, const MergeWeights& weights, Objects& objects);
+  void nameGroups(const motion::Motion& shown, Objects& objects);
   void expectLabels(const graph::Graph& graph, int64_t stepNs, Objects& objects);
   void startGroups();
   void recallStanding(const graph::Graph& graph, Objects& objects);
@@ -157,6 +144,7 @@ void CpuObjectStage::mergeRegions(const Input& in, const Params& params, int64_t
   objects.cameraDx = camera.dx;
   objects.cameraDy = camera.dy;
   expectLabels(graph, stepNs, objects);
+  if (params.method == Method::Literal) return mergeByEnergy(motion, weights, objects);
   const bool isStill = graph.labels->scope != segmentation::Scope::Frame;
   if (isStill)
     followTrends(motion, trends_, trend_);
@@ -180,12 +168,34 @@ void CpuObjectStage::mergeRegions(const Input& in, const Params& params, int64_t
     minimise(static_cast<uint32_t>(graph.regions.size()), arcs_, mergeScratch_, groupOf_);
     partGroups(trend_, expected_, layerScratch_, groupOf_);
   }
+  nameGroups(shown, objects);
+  markBackground(in, objects);
+}
+
+/// Method::Literal.
+void CpuObjectStage::mergeByEnergy(const motion::Motion& motion, const MergeWeights& weights,
+                                   Objects& objects) {
+  trends_.reset();
+  weighArcs(motion, expected_, weights, objects.arcs);
+  startGroups();
+  listArcs(*motion.graph, objects.arcs, arcs_);
+  minimise(static_cast<uint32_t>(groupOf_.size()), arcs_, mergeScratch_, groupOf_);
+  nameGroups(motion, objects);
+  isBackground_.assign(groups_.size(), 0);
+  objects.groundGroup = largestGroup(groups_, motion.size);
+  objects.cameraDx = objects.cameraDy = 0;
+  if (!objects.groundGroup) return;
+  isBackground_[objects.groundGroup.index()] = 1;
+  objects.cameraDx = groups_[objects.groundGroup.index()].dx;
+  objects.cameraDy = groups_[objects.groundGroup.index()].dy;
+}
+
+void CpuObjectStage::nameGroups(const motion::Motion& shown, Objects& objects) {
   objects.isCutShort = mergeScratch_.isCutShort;
   objects.regionGroup.resize(groupOf_.size());
   std::transform(groupOf_.begin(), groupOf_.end(), objects.regionGroup.begin(),
                  GroupIndex::ofIndex);
   describeGroups(shown, objects.regionGroup, groups_);
-  markBackground(in, objects);
 }
 
 void CpuObjectStage::tieToGround(const graph::Graph& graph, const MergeWeights& weights,

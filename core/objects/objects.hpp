@@ -4,7 +4,8 @@
 //
 // Determinism: integers in state and decisions. Objects sorted by id, ids count from 1 and are
 // never used again within a stream. What was told can be held back to be told with what comes later
-// (object_delay.hpp), and kept in little memory (result_packer.hpp).
+// (object_delay.hpp), kept in little memory (result_packer.hpp), and told as of a part of the frame
+// (result_placer.hpp, placement_matrix.hpp).
 #pragma once
 
 #include "core/base/result.hpp"
@@ -12,11 +13,21 @@
 #include "core/motion/motion.hpp"
 #include "core/objects/object.hpp"
 #include "core/objects/object_delay.hpp"
+#include "core/objects/placement_matrix.hpp"
 #include "core/objects/result_packer.hpp"
+#include "core/objects/result_placer.hpp"
 
+#include <cstdint>
 #include <memory>
 
 namespace rg::objects {
+
+enum class Method : uint8_t {
+  Extended,  ///< Regions by their trends and layers, and the ground as a node of the graph.
+  Literal,   ///< As the paper says: the energy over the regions and their motion in this frame
+             ///< alone decides. The largest group is the background, and its motion the camera's;
+             ///< what has no region counts as one group that stands still.
+};
 
 /// Weights of the energy U = U1 + U2 + U3 + prediction (core/objects/merge/mrf_merge.hpp), and the
 /// tracker's times.
@@ -31,6 +42,7 @@ struct Params {
   double motionThresholdPx = 1.0;  ///< Speeds that differ by less per frame count as alike.
   double maxLostTimeS = 2.0;       ///< An object that is not seen for longer ends.
   double minObjectArea = 0.0;      ///< Share of the frame, in percent; 0 = learnt from the scene.
+  Method method = Method::Extended;
 };
 
 /// What mrfmerge looks at in one frame.

@@ -58,11 +58,39 @@ static_assert(hueOf(255, 0, 0) == 0 && hueOf(255, 255, 0) == 256 && hueOf(0, 255
 static_assert(hueOf(0, 0, 255) == 1024 && hueOf(255, 0, 255) == 1280 && hueOf(100, 0, 1) == 1533);
 static_assert(hueOf(90, 80, 70) == kAchromatic);
 
+/// Of HSV: 0 (grey) … 255 (pure), (max − min) / max rounded; 0 of black.
+[[nodiscard]] constexpr int saturationOf(int red, int green, int blue) {
+  const int largest = std::max(red, std::max(green, blue));
+  const int chroma = largest - std::min(red, std::min(green, blue));
+  return largest == 0 ? 0 : (255 * chroma + largest / 2) / largest;
+}
+static_assert(saturationOf(200, 0, 30) == 255 && saturationOf(100, 100, 100) == 0);
+static_assert(saturationOf(0, 0, 0) == 0 && saturationOf(200, 150, 100) == 128);
+
+/// Of HSV.
+[[nodiscard]] constexpr int valueOf(int red, int green, int blue) {
+  return std::max(red, std::max(green, blue));
+}
+
 /// Distance along the shorter arc, 0 … kHueCount / 2.
 [[nodiscard]] constexpr int hueDistance(int a, int b) {
   const int d = absDiff(a, b);
   return std::min(d, kHueCount - d);
 }
+
+/// The same as 256ths of the circle, rounded: the scale that 8 bits give a hue. 0 where one of the
+/// two has no hue.
+[[nodiscard]] constexpr int hueStep(int a, int b) {
+  constexpr int kStep = kHueCount / 256;
+  return a < 0 || b < 0 ? 0 : (hueDistance(a, b) + kStep / 2) / kStep;
+}
+static_assert(hueStep(0, 1535) == 0 && hueStep(1530, 6) == 2 && hueStep(kAchromatic, 700) == 0);
+
+/// What neighbouring pixels are compared by.
+enum class ColourSpace : uint8_t {
+  Rgb,  ///< The largest difference of R', G' and B'.
+  Hsv,  ///< The largest difference of hue, in 256ths of the circle, saturation and value.
+};
 
 /// A range of hues: first … first + count − 1 round the circle; count 0 = none.
 struct HueBand {

@@ -2,7 +2,8 @@
 // Stage 2, element hsvsegment: regions of one colour (paper, section 2.2.2 and 2.3 phase 1.1).
 //
 // Where the least area allows, regions are grown from cells of 2x2 to 8x8 pixels; then the pixels
-// along their borders go where their colours fit.
+// along their borders go where their colours fit. They grow by R'G'B', or by HSV as the paper's do;
+// what is too small and the pixels at borders go by R'G'B' in either case.
 // Determinism: regions are the components of a predicate on neighbouring pixels, absorption runs in
 // synchronous rounds; the result does not depend on any order. Regions count from 1 in the raster
 // order of their first pixels.
@@ -35,6 +36,7 @@ enum class Scope : uint8_t {
 /// Which region of a frame. Planes of labels hold its number.
 using RegionLabel = Which<struct RegionKind, uint16_t>;
 inline constexpr uint16_t kNoRegion = RegionLabel().number();  ///< In planes.
+inline constexpr int kMostRegions = 65535;
 inline constexpr int kAreaMargin = 4;
 
 /// What an area covers: kAreaMargin pixels around its box, up to whole 8x8 cells of the frame.
@@ -74,11 +76,13 @@ struct Params {
                           ///< between cells.
   int minAreaPx = 0;      ///< Smaller regions are absorbed by the neighbour most like them; 0 = by
                           ///< the frame's size. 1 also leaves single pixels alone.
-  int maxRegions = 1024;  ///< 1 … 65535, never exceeded.
+  int maxRegions = 1024;  ///< 1 … kMostRegions, never exceeded.
   /// Hue as a decision. Of the scope's pixels those of an object's hue get a region, those of the
   /// background's don't, and those without a hue follow the foreground, if there is one, and have
   /// none under an objectBand. Label 0 is the background then, whatever the scope.
   HueRules hue{};
+  ColourSpace space = ColourSpace::Rgb;  ///< What `similarity` is a step of; a grey picture has one
+                                         ///< channel in either.
 };
 
 class Stage {

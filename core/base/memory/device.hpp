@@ -3,10 +3,13 @@
 // the host by copies. Core knows no such processor; kernels/ does.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <memory>
+#include <mutex>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace rg {
 
@@ -41,6 +44,8 @@ class Device {
   virtual ~Device() = default;
   /// What messages call it.
   [[nodiscard]] virtual std::string name() const = 0;
+  /// Devices of one space see each other's memory, in the order in which they are asked.
+  [[nodiscard]] virtual const void* space() const = 0;
   /// All bytes are 0. Throws DeviceError.
   [[nodiscard]] virtual std::unique_ptr<DeviceMemory> allocate(size_t bytes) = 0;
 
@@ -57,47 +62,123 @@ class Device {
   std::unique_ptr<DeviceError> error_;
 };
 
-/// An image's memory on a device, and which of the two is the newer one. One thread at a time.
-class DeviceTwin {
+/// An image's memory on devices, and where its newest pixels are. Results are read by several
+/// stages at once, each on a thread and perhaps on a device of its own: all calls may come
+/// together, but for those that change the image.
+class DeviceCopies {
  public:
-  DeviceTwin(Device& device, size_t bytes) : memory_(device.allocate(bytes)), bytes_(bytes) {}
+  explicit DeviceCopies(size_t bytes) : bytes_(bytes) {}
 
-  [[nodiscard]] bool isOnHost() const { return newest_ != Newest::Device; }
-  [[nodiscard]] bool isOnHostOnly() const { return newest_ == Newest::Host; }
+  [[nodiscard]] bool isOnHost() const {
+    const std::lock_guard lock(mutex_);
+    return isOnHost_;
+  }
+  [[nodiscard]] bool isOnHostOnly() const {
+    const std::lock_guard lock(mutex_);
+    return isOnHost_ && newest() == nullptr;
+  }
 
   void readOnHost(void* host) {
-    if (isOnHost()) return;
-    memory_->download(host, bytes_);
-    newest_ = Newest::Both;
+    const std::lock_guard lock(mutex_);
+    bringToHost(host);
   }
   void changeOnHost(void* host) {
-    readOnHost(host);
-    newest_ = Newest::Host;
+    const std::lock_guard lock(mutex_);
+    bringToHost(host);
+    makeOld();
   }
-  void writeOnHost() { newest_ = Newest::Host; }
+  void writeOnHost() {
+    const std::lock_guard lock(mutex_);
+    isOnHost_ = true;
+    makeOld();
+  }
 
-  const void* read(const void* host) {
-    if (isOnHostOnly()) {
-      memory_->upload(host, bytes_);
-      newest_ = Newest::Both;
-    }
-    return memory_->data();
+  const void* read(Device& device, void* host) {
+    const std::lock_guard lock(mutex_);
+    return bringTo(device, host).memory->data();
   }
-  void* change(const void* host) {
-    (void)read(host);
-    return write();
+  void* change(Device& device, void* host) {
+    const std::lock_guard lock(mutex_);
+    return keepOnly(bringTo(device, host));
   }
-  void* write() {
-    newest_ = Newest::Device;
-    return memory_->data();
+  void* write(Device& device) {
+    const std::lock_guard lock(mutex_);
+    return keepOnly(copyOn(device));
   }
 
  private:
-  enum class Newest : unsigned char { Host, Device, Both };
+  struct Copy {
+    const void* space;
+    std::unique_ptr<DeviceMemory> memory;
+    bool isNewest;
+  };
 
-  std::unique_ptr<DeviceMemory> memory_;
+  [[nodiscard]] const Copy* newest() const {
+    for (const Copy& copy : copies_)
+      if (copy.isNewest) return &copy;
+    return nullptr;
+  }
+  void bringToHost(void* host) {
+    if (isOnHost_) return;
+    newest()->memory->download(host, bytes_);
+    isOnHost_ = true;
+  }
+  Copy& copyOn(Device& device) {
+    for (Copy& copy : copies_)
+      if (copy.space == device.space()) return copy;
+    copies_.reserve(copies_.size() + 1);
+    return copies_.emplace_back(Copy{device.space(), device.allocate(bytes_), false});
+  }
+  /// From one device to another the pixels go by way of the host.
+  Copy& bringTo(Device& device, void* host) {
+    Copy& copy = copyOn(device);
+    if (copy.isNewest) return copy;
+    bringToHost(host);
+    copy.memory->upload(host, bytes_);
+    copy.isNewest = true;
+    return copy;
+  }
+  void makeOld() {
+    for (Copy& copy : copies_) copy.isNewest = false;
+  }
+  void* keepOnly(Copy& copy) {
+    isOnHost_ = false;
+    makeOld();
+    copy.isNewest = true;
+    return copy.memory->data();
+  }
+
+  mutable std::mutex mutex_;
   size_t bytes_;
-  Newest newest_ = Newest::Host;
+  bool isOnHost_ = true;
+  std::vector<Copy> copies_;  ///< One for each space.
+};
+
+/// Made when the first device asks; readers of one image may be the first together.
+class LazyCopies {
+ public:
+  LazyCopies() = default;
+  ~LazyCopies() { drop(); }
+  LazyCopies(const LazyCopies&) = delete;
+  LazyCopies& operator=(const LazyCopies&) = delete;
+
+  explicit operator bool() const { return there() != nullptr; }
+  DeviceCopies* operator->() const { return there(); }
+  DeviceCopies& get(size_t bytes) {
+    if (DeviceCopies* made = there()) return *made;
+    auto fresh = std::make_unique<DeviceCopies>(bytes);
+    DeviceCopies* other = nullptr;
+    if (!copies_.compare_exchange_strong(other, fresh.get(), std::memory_order_acq_rel))
+      return *other;
+    return *fresh.release();
+  }
+  void drop() noexcept { delete copies_.exchange(nullptr); }
+  /// Nobody else may look at either.
+  void swap(LazyCopies& other) noexcept { copies_.store(other.copies_.exchange(copies_.load())); }
+
+ private:
+  [[nodiscard]] DeviceCopies* there() const { return copies_.load(std::memory_order_acquire); }
+  std::atomic<DeviceCopies*> copies_ = nullptr;
 };
 
 }  // namespace rg

@@ -80,7 +80,7 @@ class Image {
       memory_.reset(static_cast<std::byte*>(::operator new (bytes, std::align_val_t{kAlign})));
       capacity_ = bytes;
     }
-    twin_.reset();
+    copies_.drop();
     size_ = size;
     strideBytes_ = static_cast<ptrdiff_t>(stride);
     clearPadding();
@@ -105,11 +105,11 @@ class Image {
   [[nodiscard]] T& at(int x, int y) { return view().at(x, y); }
   [[nodiscard]] const T& at(int x, int y) const { return view().at(x, y); }
   [[nodiscard]] ImageView<T> view() {
-    assert(!twin_ || twin_->isOnHostOnly());
+    assert(!copies_ || copies_->isOnHostOnly());
     return {reinterpret_cast<T*>(memory_.get()), size_, strideBytes_};
   }
   [[nodiscard]] ImageView<const T> view() const {
-    assert(!twin_ || twin_->isOnHost());
+    assert(!copies_ || copies_->isOnHost());
     return {reinterpret_cast<const T*>(memory_.get()), size_, strideBytes_};
   }
   operator ImageView<T>() { return view(); }              // NOLINT(google-explicit-constructor)
@@ -118,29 +118,29 @@ class Image {
   /// The pixels are here then. Waits for the device, where it has changed them; throws DeviceError
   /// when it is lost.
   void readOnHost() const {
-    if (twin_) twin_->readOnHost(memory_.get());
+    if (copies_) copies_->readOnHost(memory_.get());
   }
   /// And what the device holds counts no more.
   void changeOnHost() {
-    if (twin_) twin_->changeOnHost(memory_.get());
+    if (copies_) copies_->changeOnHost(memory_.get());
   }
   /// All of them will be written: nothing is fetched.
   void writeOnHost() {
-    if (twin_) twin_->writeOnHost();
+    if (copies_) copies_->writeOnHost();
   }
 
   /// Where the device has the pixels, the same layout. They are sent when they are not there yet.
   /// Throws DeviceError.
   [[nodiscard]] ImageView<const T> readOn(Device& device) const {
-    return {static_cast<const T*>(twin(device).read(memory_.get())), size_, strideBytes_};
+    return {static_cast<const T*>(copies().read(device, memory_.get())), size_, strideBytes_};
   }
   /// And what is here counts no more.
   [[nodiscard]] ImageView<T> changeOn(Device& device) {
-    return {static_cast<T*>(twin(device).change(memory_.get())), size_, strideBytes_};
+    return {static_cast<T*>(copies().change(device, memory_.get())), size_, strideBytes_};
   }
   /// All of them will be written: nothing is sent.
   [[nodiscard]] ImageView<T> writeOn(Device& device) {
-    return {static_cast<T*>(twin(device).write()), size_, strideBytes_};
+    return {static_cast<T*>(copies().write(device)), size_, strideBytes_};
   }
 
  private:
@@ -151,11 +151,8 @@ class Image {
     }
   };
 
-  [[nodiscard]] DeviceTwin& twin(Device& device) const {
-    if (!twin_)
-      twin_ = std::make_unique<DeviceTwin>(
-          device, static_cast<size_t>(strideBytes_) * static_cast<size_t>(size_.height));
-    return *twin_;
+  [[nodiscard]] DeviceCopies& copies() const {
+    return copies_.get(static_cast<size_t>(strideBytes_) * static_cast<size_t>(size_.height));
   }
 
   /// Zeros behind the rows: kernels load whole vectors, and what they make of bytes that nobody
@@ -173,14 +170,14 @@ class Image {
     std::swap(capacity_, other.capacity_);
     std::swap(size_, other.size_);
     std::swap(strideBytes_, other.strideBytes_);
-    std::swap(twin_, other.twin_);
+    copies_.swap(other.copies_);
   }
 
   std::unique_ptr<std::byte, Free> memory_;
   size_t capacity_ = 0;
   Size size_;
   ptrdiff_t strideBytes_ = 0;
-  mutable std::unique_ptr<DeviceTwin> twin_;  ///< None: no device has ever seen it.
+  mutable LazyCopies copies_;  ///< None: no device has ever seen it.
 };
 
 }  // namespace rg

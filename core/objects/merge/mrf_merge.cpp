@@ -6,8 +6,10 @@
 #include "core/objects/merge/empty_groups.hpp"
 #include "core/objects/merge/merge_chains.hpp"
 #include "core/objects/merge/merge_contraction.hpp"
+#include "core/objects/objects.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <tuple>
 
@@ -120,6 +122,21 @@ void improve(uint64_t mostVisits, MergeScratch& s, std::vector<uint32_t>& groupO
 
 }  // namespace
 
+MergeWeights weightsOf(const Params& params) {
+  const auto q8 = [](double value) {
+    return static_cast<int32_t>(std::lround(std::clamp(value, 0.0, 1000.0) * 256));
+  };
+  MergeWeights weights;
+  weights.motion = q8(params.motionWeight);
+  weights.border = q8(params.borderWeight);
+  weights.arc = q8(params.arcWeight);
+  weights.prediction = q8(params.predictionWeight);
+  weights.motionThreshold =
+      std::max(1, static_cast<int32_t>(std::lround(std::clamp(params.motionThresholdPx, 0.0, 64.0) *
+                                                   motion::kMotionUnit)));
+  return weights;
+}
+
 void weighArcs(const motion::Motion& motion, std::span<const TrackIndex> predicted,
                const MergeWeights& weights, std::vector<ArcEnergy>& energies) {
   const graph::Graph& graph = *motion.graph;
@@ -216,6 +233,18 @@ void describeGroups(const motion::Motion& motion, std::span<const GroupIndex> gr
     group.dy = static_cast<int32_t>(divideRounded(group.momentY, group.weight));
     group.reliability = static_cast<uint16_t>(divideRounded(group.weight, group.areaPx));
   }
+}
+
+GroupIndex largestGroup(std::span<const Group> groups, Size frame) {
+  GroupIndex largest;
+  int64_t most = 0, left = frame.area();
+  for (size_t i = 0; i < groups.size(); ++i) {
+    left -= groups[i].areaPx;
+    if (groups[i].areaPx <= most) continue;
+    most = groups[i].areaPx;
+    largest = GroupIndex::ofIndex(i);
+  }
+  return left > most ? GroupIndex() : largest;
 }
 
 motion::RegionMotion dominantMotion(const motion::Motion& motion, VoteScratch& scratch) {

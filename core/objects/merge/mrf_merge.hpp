@@ -33,6 +33,8 @@
 
 namespace rg::objects {
 
+struct Params;
+
 /// Weights in 1/256; what they weigh is in pixels.
 struct MergeWeights {
   int32_t motion = 256;
@@ -41,6 +43,8 @@ struct MergeWeights {
   int32_t prediction = 512;
   int32_t motionThreshold = motion::kMotionUnit;  ///< T, in 1/16 px per frame, at least 1.
 };
+
+[[nodiscard]] MergeWeights weightsOf(const Params& params);
 
 /// An arc between nodes a < b that count from 0.
 struct WeightedArc {
@@ -154,6 +158,10 @@ void minimise(uint32_t nodeCount, std::span<const WeightedArc> arcs, MergeScratc
 /// What the groups of a partition have in common.
 void describeGroups(const motion::Motion& motion, std::span<const GroupIndex> groupOf,
                     std::vector<Group>& groups);
+
+/// The group with the most pixels, of equal ones the first; none where more pixels of the frame
+/// have no region.
+[[nodiscard]] GroupIndex largestGroup(std::span<const Group> groups, Size frame);
 
 /// The motion that most pixels agree on: the regions vote by area and reliability for whole pixels,
 /// 3x3 neighbours count as one; the shorter motion wins ties. Reliability 0 where nobody votes.

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 
 namespace rg {
 
@@ -31,6 +32,50 @@ struct PackedOrder {
       return {0, 1, 2, 3};
   }
 }
+
+/// Where the samples of a kind lie: in which plane, the first one's byte in a row, and how many
+/// bytes from one to the next.
+struct SamplePlace {
+  int plane, offsetBytes, stepBytes;
+};
+
+/// Where a Y'CbCr format has its samples. Chroma has half the columns, rounded up.
+struct YuvOrder {
+  SamplePlace luma, cb, cr;
+  int chromaRowShift = 0;   ///< A row of chroma serves so many rows, as a power of 2.
+  bool hasTenBits = false;  ///< A sample is a word's lower ten bits, of which the upper 8 count.
+
+  [[nodiscard]] constexpr bool isPlanar() const { return cb.plane != cr.plane; }
+};
+
+[[nodiscard]] constexpr std::optional<YuvOrder> yuvOrderOf(PixelFormat format) {
+  switch (format) {
+    case PixelFormat::Nv12:
+      return YuvOrder{{0, 0, 1}, {1, 0, 2}, {1, 1, 2}, 1};
+    case PixelFormat::Nv21:
+      return YuvOrder{{0, 0, 1}, {1, 1, 2}, {1, 0, 2}, 1};
+    case PixelFormat::I420:
+      return YuvOrder{{0, 0, 1}, {1, 0, 1}, {2, 0, 1}, 1};
+    case PixelFormat::Y42b:
+      return YuvOrder{{0, 0, 1}, {1, 0, 1}, {2, 0, 1}};
+    case PixelFormat::Yuy2:
+      return YuvOrder{{0, 0, 2}, {0, 1, 4}, {0, 3, 4}};
+    case PixelFormat::Uyvy:
+      return YuvOrder{{0, 1, 2}, {0, 0, 4}, {0, 2, 4}};
+    case PixelFormat::I420Ten:
+      return YuvOrder{{0, 0, 2}, {1, 0, 2}, {2, 0, 2}, 1, true};
+    case PixelFormat::P010:  // The upper byte of a word is all that counts.
+      return YuvOrder{{0, 1, 2}, {1, 1, 4}, {1, 3, 4}, 1};
+    default:
+      return std::nullopt;
+  }
+}
+
+/// The upper 8 bits of a word's lower ten.
+[[nodiscard]] constexpr uint8_t upperOfTen(int word) {
+  return static_cast<uint8_t>(word >> 2);
+}
+static_assert(upperOfTen(1023) == 255 && upperOfTen(3) == 0 && upperOfTen(0xFC00) == 0);
 
 [[nodiscard]] constexpr uint8_t lumaOf(int red, int green, int blue) {
   return static_cast<uint8_t>((77 * red + 150 * green + 29 * blue + 128) >> 8);

@@ -11,5 +11,7 @@ namespace rg::simd {
 
 /// sums[i] += bytes[i]. The caller bounds how often.
 void addRow(const uint8_t* bytes, int count, uint16_t* sums);
+/// The same of words' lower ten bits (upperOfTen in conversion.hpp), low byte first.
+void addRowOfTen(const uint8_t* bytes, int count, uint16_t* sums);
 
 }  // namespace rg::simd

@@ -3,6 +3,7 @@
 
 #include "core/simd/base/targets.hpp"
 
+#include <algorithm>
 #include <cstddef>
 
 #undef HWY_TARGET_INCLUDE
@@ -13,7 +14,9 @@
 HWY_BEFORE_NAMESPACE();
 namespace rg::HWY_NAMESPACE {
 #if HWY_TARGET == HWY_SCALAR
+using plain::gatherRow;
 using plain::loadPackedRow;
+using plain::loadPlanarRow;
 using plain::loadYuvRow;
 #else
 namespace {
@@ -59,6 +62,37 @@ void storePacked(V red, V green, V blue, const ColourRows& to) {
   hn::StoreU(green, kBytes, to.green);
   hn::StoreU(blue, kBytes, to.blue);
   hn::StoreU(lumaOf(red, green, blue), kBytes, to.luma);
+}
+
+void loadPlanarRow(const uint8_t* red, const uint8_t* green, const uint8_t* blue, int width,
+                   const ColourRows& to) {
+  const auto lanes = static_cast<int>(hn::Lanes(kBytes));
+  int x = 0;
+  for (; x + lanes <= width; x += lanes)
+    storePacked(hn::LoadU(kBytes, red + x), hn::LoadU(kBytes, green + x),
+                hn::LoadU(kBytes, blue + x), after(to, x));
+  plain::loadPlanarRow(red + x, green + x, blue + x, width - x, after(to, x));
+}
+
+/// As many samples as a vector has bytes, of which one more sample must follow.
+V gather(const SpacedRow& from, int x) {
+  const uint8_t* at = from.first + ptrdiff_t{x} * from.stepBytes;
+  V low, high, third, fourth;
+  if (from.stepBytes == 4) {
+    hn::LoadInterleaved4(kBytes, at, low, high, third, fourth);
+    return low;
+  }
+  hn::LoadInterleaved2(kBytes, at, low, high);
+  if (!from.hasTenBits) return low;
+  return hn::Or(hn::ShiftRight<2>(low), hn::ShiftLeft<6>(high));
+}
+
+void gatherRow(const SpacedRow& from, int count, uint8_t* to) {
+  const auto lanes = static_cast<int>(hn::Lanes(kBytes));
+  int x = 0;
+  for (; x + lanes < count; x += lanes) hn::StoreU(gather(from, x), kBytes, to + x);
+  const SpacedRow rest{from.first + ptrdiff_t{x} * from.stepBytes, from.stepBytes, from.hasTenBits};
+  plain::gatherRow(rest, count - x, to + x);
 }
 
 void loadPackedRow(const uint8_t* from, int width, const PackedOrder& order, const ColourRows& to) {
@@ -163,10 +197,26 @@ HWY_AFTER_NAMESPACE();
 namespace rg {
 namespace {
 
+HWY_EXPORT(gatherRow);
 HWY_EXPORT(loadPackedRow);
+HWY_EXPORT(loadPlanarRow);
 HWY_EXPORT(loadYuvRow);
 
 }  // namespace
+
+void plain::gatherRow(const SpacedRow& from, int count, uint8_t* to) {
+  const uint8_t* at = from.first;
+  for (int x = 0; x < count; ++x, at += from.stepBytes)
+    to[x] = from.hasTenBits ? upperOfTen(at[0] | at[1] << 8) : at[0];
+}
+
+void plain::loadPlanarRow(const uint8_t* red, const uint8_t* green, const uint8_t* blue, int width,
+                          const ColourRows& to) {
+  std::copy_n(red, width, to.red);
+  std::copy_n(green, width, to.green);
+  std::copy_n(blue, width, to.blue);
+  for (int x = 0; x < width; ++x) to.luma[x] = lumaOf(red[x], green[x], blue[x]);
+}
 
 void plain::loadPackedRow(const uint8_t* from, int width, const PackedOrder& order,
                           const ColourRows& to) {
@@ -188,6 +238,15 @@ void plain::loadYuvRow(const YuvRows& from, int width, const YuvToRgb& k, const 
     to.blue[x] = colour.blue;
     to.luma[x] = from.luma[x];
   }
+}
+
+void simd::gatherRow(const SpacedRow& from, int count, uint8_t* to) {
+  HWY_DYNAMIC_DISPATCH(gatherRow)(from, count, to);
+}
+
+void simd::loadPlanarRow(const uint8_t* red, const uint8_t* green, const uint8_t* blue, int width,
+                         const ColourRows& to) {
+  HWY_DYNAMIC_DISPATCH(loadPlanarRow)(red, green, blue, width, to);
 }
 
 void simd::loadPackedRow(const uint8_t* from, int width, const PackedOrder& order,

@@ -19,12 +19,27 @@ struct YuvRows {
   int chromaStep;  ///< 1 for planes of their own; 2 where Cb and Cr take turns, Cb first.
 };
 
+/// Samples of a row that have others between them.
+struct SpacedRow {
+  const uint8_t* first;
+  int stepBytes;            ///< 2 or 4.
+  bool hasTenBits = false;  ///< Words, as YuvOrder says.
+};
+
 namespace plain {
+void gatherRow(const SpacedRow& from, int count, uint8_t* to);
+void loadPlanarRow(const uint8_t* red, const uint8_t* green, const uint8_t* blue, int width,
+                   const ColourRows& to);
 void loadPackedRow(const uint8_t* from, int width, const PackedOrder& order, const ColourRows& to);
 void loadYuvRow(const YuvRows& from, int width, const YuvToRgb& k, const ColourRows& to);
 }  // namespace plain
 
 namespace simd {
+/// Puts samples side by side; of ten bits the upper 8. Touches no byte behind the last one's.
+void gatherRow(const SpacedRow& from, int count, uint8_t* to);
+/// Luma as by loadPackedRow.
+void loadPlanarRow(const uint8_t* red, const uint8_t* green, const uint8_t* blue, int width,
+                   const ColourRows& to);
 /// Luma is (77 R + 150 G + 29 B + 128) / 256.
 void loadPackedRow(const uint8_t* from, int width, const PackedOrder& order, const ColourRows& to);
 /// A chroma sample serves two columns; luma is copied.

@@ -15,7 +15,7 @@ namespace rg::segmentation::simd {
 /// to[i] = the mean of a[i], b[i] and from[i], weights 1 1 2.
 void smoothRow(const uint8_t* a, const uint8_t* b, const uint8_t* from, int count, uint8_t* to);
 
-/// Pairs of pixels a[i], b[i] of up to three channels: their largest difference, at most `most`.
+/// Pairs of pixels a[i], b[i] of one channel or three: their largest difference, at most `most`.
 struct PixelPairs {
   int channels = 1;
   const uint8_t* a[3] = {};

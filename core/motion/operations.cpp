@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "core/motion/operations.hpp"
+
+#include "core/motion/motion_estimate.hpp"
+
+namespace rg::motion {
+
+void Operations::searchShifts(const MatchedFrames& frames, const WholeShifts& out) {
+  padLuma(frames);
+  searched_.boxes.build(searched_.luma, executor_);
+  scratch_.resize(static_cast<size_t>(executor_.threads()));
+  const ImageView<const uint8_t> luma = frames.current.luma(), before = frames.previous.luma();
+  executor_.forEach(static_cast<int>(out.motion.size()), [&](int index, int thread) {
+    const auto i = static_cast<size_t>(index);
+    const auto label = segmentation::RegionLabel::ofIndex(i);
+    const auto parts = frames.blocks.partsOf(label);
+    if (parts.empty()) return;
+    out.isStill[i] = isUnchanged(parts, luma, before);
+    const ShiftRange range =
+        out.isStill[i] != 0 ? kStillRange : ShiftRange{frames.maxShiftPx, frames.maxShiftPx + 1};
+    const FoundShift found =
+        motion::searchShifts(parts, luma, searched_, range, scratch_[static_cast<size_t>(thread)]);
+    const GradientProducts& gradients = frames.blocks.gradientsOf(label);
+    out.motion[i] = estimateMotion(
+        found, {gradients.xx, gradients.xy, gradients.yy, frames.blocks.pixelsOf(label)});
+  });
+}
+
+std::unique_ptr<Operations> makeOperations(const Context& context) {
+  auto* source = dynamic_cast<OperationsSource*>(context.device.get());
+  if (source != nullptr && context.device->isUp()) return source->motionOperations(*context.cpu);
+  return std::make_unique<Operations>(*context.cpu);
+}
+
+}  // namespace rg::motion

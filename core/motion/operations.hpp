@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// What the stage does with pixels, step by step: by the functions of this room, or by a device's
+// counterparts of them. Which of the two did a step can't be seen in its result.
+#pragma once
+
+#include "core/base/memory/executor.hpp"
+#include "core/base/picture.hpp"
+#include "core/base/stage.hpp"
+#include "core/motion/matched_blocks.hpp"
+#include "core/motion/motion.hpp"
+#include "core/motion/padded_luma.hpp"
+#include "core/motion/shift_search.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace rg::motion {
+
+/// Where regions are, and where they were.
+struct MatchedFrames {
+  const Picture& current;
+  const Picture& previous;
+  const MatchedBlocks& blocks;
+  int maxShiftPx;
+};
+
+/// What is found of each region; those without matched blocks stay as they are.
+struct WholeShifts {
+  std::span<RegionMotion> motion;
+  std::span<uint8_t> isStill;  ///< None of its matched pixels has changed.
+};
+
+/// Each does what the function of its name does; this class does it on the CPU.
+class Operations {
+ public:
+  explicit Operations(const Executor& executor) : executor_(executor) {}
+  virtual ~Operations() = default;
+  Operations(const Operations&) = delete;
+  Operations& operator=(const Operations&) = delete;
+
+  /// isUnchanged(), searchShifts() and estimateMotion() of each region that has matched blocks.
+  virtual void searchShifts(const MatchedFrames& frames, const WholeShifts& out);
+  /// The previous picture's luma as searchShifts() has padded it.
+  [[nodiscard]] const PaddedLuma& previousLuma() const { return searched_.luma; }
+
+ protected:
+  [[nodiscard]] const Executor& executor() const { return executor_; }
+  /// For what fits fractions of a pixel on the host. A ring of shifts beyond is seen, too.
+  void padLuma(const MatchedFrames& frames) {
+    searched_.luma.build(frames.previous.luma(), frames.maxShiftPx + 1, executor_);
+  }
+
+ private:
+  const Executor& executor_;
+  SearchedPicture searched_;
+  std::vector<SearchScratch> scratch_;
+};
+
+/// A device that has operations of this room.
+class OperationsSource {
+ public:
+  virtual ~OperationsSource() = default;
+  /// They live shorter than both. Throws std::bad_alloc.
+  [[nodiscard]] virtual std::unique_ptr<Operations> motionOperations(const Executor& executor) = 0;
+};
+
+/// The device's, where there is one that works and has some, else the CPU's.
+[[nodiscard]] std::unique_ptr<Operations> makeOperations(const Context& context);
+
+}  // namespace rg::motion
