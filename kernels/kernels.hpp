@@ -16,6 +16,7 @@
 #include "kernels/displaced_things.hpp"
 #include "kernels/gaussian_background.hpp"
 #include "kernels/ghosts.hpp"
+#include "kernels/haar_cascade.hpp"
 #include "kernels/histogram.hpp"
 #include "kernels/hues.hpp"
 #include "kernels/light_switch.hpp"

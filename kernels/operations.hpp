@@ -77,4 +77,7 @@
   X(searchShifts, rg::motion::searchShifts, rg::gpu::motion::searchShifts)                  \
   X(findStill, rg::motion::isUnchanged, rg::gpu::motion::findStill)                         \
   X(sumGradients, rg::motion::sumGradients, rg::gpu::motion::sumGradients)                  \
-  X(estimateMotion, rg::motion::estimateMotion, rg::gpu::motion::estimateMotion)
+  X(estimateMotion, rg::motion::estimateMotion, rg::gpu::motion::estimateMotion)            \
+  X(sumIntegrals, rg::detection::sumIntegrals, rg::gpu::detection::sumIntegrals)            \
+  X(locateWindows, rg::detection::placeOf, rg::gpu::detection::locateWindows)               \
+  X(judgeWindows, rg::detection::judgeWindows, rg::gpu::detection::judgeWindows)

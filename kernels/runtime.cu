@@ -42,7 +42,7 @@ void* allocate(size_t bytes, Stream stream) {
   void* memory = nullptr;
   check(cudaMallocAsync(&memory, bytes, stream), "cudaMallocAsync");
   try {
-    clear(memory, bytes, stream);
+    gpu::clear(memory, bytes, stream);
   } catch (...) {
     release(memory, stream);
     throw;
@@ -52,6 +52,10 @@ void* allocate(size_t bytes, Stream stream) {
 
 void release(void* memory, Stream stream) noexcept {
   (void)cudaFreeAsync(memory, stream);
+}
+
+void clear(void* memory, size_t bytes, Stream stream) {
+  gpu::clear(memory, bytes, stream);
 }
 
 void upload(void* to, const void* from, size_t bytes, Stream stream) {

@@ -27,6 +27,7 @@ void endStream(Stream stream) noexcept;
 [[nodiscard]] void* allocate(size_t bytes, Stream stream);
 void release(void* memory, Stream stream) noexcept;
 
+void clear(void* memory, size_t bytes, Stream stream);
 /// `from` may change as soon as it returns.
 void upload(void* to, const void* from, size_t bytes, Stream stream);
 /// Waits for what the stream was given before.

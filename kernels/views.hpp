@@ -10,6 +10,7 @@
 #include "core/base/memory/image.hpp"
 
 #include <cstdint>
+#include <type_traits>
 
 namespace rg::gpu {
 
@@ -44,6 +45,10 @@ struct PlanesOf {
   ImageView<T> planes[3];
   int channels = 0;
   [[nodiscard]] constexpr Size size() const { return planes[0].size; }
+  constexpr operator PlanesOf<const T>() const  // NOLINT(google-explicit-constructor)
+      requires(!std::is_const_v<T>) {
+    return {{planes[0], planes[1], planes[2]}, channels};
+  }
 };
 using Planes = PlanesOf<const uint8_t>;
 using PlaneTargets = PlanesOf<uint8_t>;

@@ -64,6 +64,14 @@ struct Reads {
     forImages(what, [](const auto& image) { image.readOnHost(); });
   }
 };
+/// Of an image that need not be there.
+template <class T>
+struct ReadsIfAny {
+  const T* what;
+  void bringToHost() const {
+    if (what != nullptr) Reads<T>{*what}.bringToHost();
+  }
+};
 template <class T>
 struct Changes {
   T& what;
@@ -80,6 +88,8 @@ struct Writes {
 };
 template <class T>
 Reads(const T&) -> Reads<T>;
+template <class T>
+ReadsIfAny(const T*) -> ReadsIfAny<T>;
 template <class T>
 Changes(T&) -> Changes<T>;
 template <class T>

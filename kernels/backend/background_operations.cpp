@@ -156,10 +156,17 @@ class GpuOperations final : public Cpu, private Dispatcher {
         },
         [&] { Cpu::shiftPicture(shift, spare, picture); }, Writes{spare}, Changes{picture});
   }
+  Histogram countLevels(const Image<uint8_t>& plane) override {
+    return ask<Histogram>(
+        [&](Histogram* levels) {
+          rg::gpu::countLevels(plane.readOn(device()), levels->data(), stream());
+        },
+        [&] { return Cpu::countLevels(plane); }, Reads{plane});
+  }
   LevelMaps matchLight(const ShownModel& shown, const SmoothPicture& picture) override {
     LevelMaps maps{};
     for (size_t c = 0; c < static_cast<size_t>(picture.channels); ++c)
-      maps[c] = rg::background::matchLevels(levelsOf(shown[c]), levelsOf(picture.planes[c]));
+      maps[c] = rg::background::matchLevels(countLevels(shown[c]), countLevels(picture.planes[c]));
     return maps;
   }
   uint32_t countApart(const ShownModel& shown, const SmoothPicture& picture, const LevelMaps& maps,
@@ -346,11 +353,6 @@ class GpuOperations final : public Cpu, private Dispatcher {
  private:
   static int ageOf(int64_t age) { return static_cast<int>(std::min<int64_t>(age, UINT16_MAX + 1)); }
 
-  [[nodiscard]] Histogram levelsOf(const Image<uint8_t>& plane) {
-    return ask<Histogram>(
-        [&](Histogram* levels) { countLevels(plane.readOn(device()), levels->data(), stream()); },
-        [&] { return rg::countLevels(plane, executor()); }, Reads{plane});
-  }
   void findShadowsOnDevice(const SmoothPicture& picture, const ShownModel& shown,
                            const BitMask& mask, BitMask& shadow) {
     const auto planes = [](const Planes& from) {

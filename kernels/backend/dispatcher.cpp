@@ -33,6 +33,12 @@ BitTarget Dispatcher::scratchMask(Size size) const {
           size};
 }
 
+PlaneTargets Dispatcher::scratchPlanes(Size size, int channels) const {
+  PlaneTargets planes{{}, channels};
+  for (int c = 0; c < channels; ++c) planes.planes[c] = scratchPlane<uint8_t>(size);
+  return planes;
+}
+
 BitTarget Dispatcher::copyOf(const BitView& mask) const {
   const BitTarget copied = scratchMask(mask.size);
   copy(mask, copied);
@@ -41,6 +47,10 @@ BitTarget Dispatcher::copyOf(const BitView& mask) const {
 
 void Dispatcher::copy(const BitView& from, const BitTarget& to) const {
   runtime::copy(to.words.data, from.words.data, bytesOf(from), stream());
+}
+
+void Dispatcher::send(void* to, const void* from, size_t bytes) const {
+  runtime::upload(to, from, bytes, stream());
 }
 
 void Dispatcher::fetch(void* to, const void* from, size_t bytes) const {

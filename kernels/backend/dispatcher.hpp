@@ -11,7 +11,9 @@
 #include "kernels/components.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <type_traits>
+#include <vector>
 
 namespace rg::gpu {
 
@@ -29,6 +31,15 @@ class Dispatcher {
       onDevice();
     };
     if (!device_.isUp() || !tryTo(attempt)) onHost(onCpu, accesses...);
+  }
+  /// run() for what leaves nothing on the device that the CPU would need: no error leaves.
+  template <class OnDevice, class OnCpu>
+  void runOrCatchUp(const OnDevice& onDevice, const OnCpu& onCpu) {
+    try {
+      run(onDevice, onCpu);
+    } catch (const DeviceError&) {
+      onCpu();
+    }
   }
   /// For what has no kernel. A copy that fails is tried once more: what it was to bring is nowhere
   /// else.
@@ -62,9 +73,29 @@ class Dispatcher {
   [[nodiscard]] ComponentsView components(Size size) const;
   /// In scratch, contents undefined.
   [[nodiscard]] BitTarget scratchMask(Size size) const;
+  template <class T>
+  [[nodiscard]] ImageView<T> scratchPlane(Size size) const {
+    const int64_t stride = int64_t{wordsOf(size.width)} * kWordColumns;
+    return {scratch().take<T>(stride * size.height + kWordColumns), size,
+            static_cast<ptrdiff_t>(stride * static_cast<int64_t>(sizeof(T)))};
+  }
+  [[nodiscard]] PlaneTargets scratchPlanes(Size size, int channels) const;
   /// In scratch.
   [[nodiscard]] BitTarget copyOf(const BitView& mask) const;
   void copy(const BitView& from, const BitTarget& to) const;
+  void send(void* to, const void* from, size_t bytes) const;
+  /// Waits for it.
+  template <class T>
+  [[nodiscard]] T fetched(const T* from) const {
+    T value{};
+    fetch(&value, from, sizeof value);
+    return value;
+  }
+  template <class T>
+  void fetchList(const T* from, uint32_t count, std::vector<T>& to) const {
+    to.resize(count);
+    if (count > 0) fetch(to.data(), from, count * sizeof(T));
+  }
 
  private:
   void fetch(void* to, const void* from, size_t bytes) const;

@@ -2,6 +2,9 @@
 #include "kernels/backend/gpu_device.hpp"
 
 #include "kernels/backend/background_operations.hpp"
+#include "kernels/backend/graph_operations.hpp"
+#include "kernels/backend/motion_operations.hpp"
+#include "kernels/backend/segmentation_operations.hpp"
 #include "kernels/runtime.hpp"
 
 #include <utility>
@@ -12,7 +15,7 @@ namespace {
 class GpuMemory final : public DeviceMemory {
  public:
   GpuMemory(std::shared_ptr<Lane> lane, size_t bytes)
-      : lane_(std::move(lane)), memory_(runtime::allocate(bytes, lane_->stream())) {}
+      : lane_(std::move(lane)), memory_(runtime::allocate(bytes + kBehind, lane_->stream())) {}
   ~GpuMemory() override { runtime::release(memory_, lane_->stream()); }
   GpuMemory(const GpuMemory&) = delete;
   GpuMemory& operator=(const GpuMemory&) = delete;
@@ -28,6 +31,8 @@ class GpuMemory final : public DeviceMemory {
   }
 
  private:
+  static constexpr size_t kBehind = 64;  ///< Kernels load whole words (loadQuadAnywhere).
+
   std::shared_ptr<Lane> lane_;
   void* memory_;
 };
@@ -64,9 +69,6 @@ void* Scratch::takeBytes(size_t bytes) {
   return block.memory;
 }
 
-GpuDevice::GpuDevice(int device)
-    : name_(runtime::nameOf(device)), lane_(std::make_shared<Lane>(device)), scratch_(lane_) {}
-
 std::unique_ptr<DeviceMemory> GpuDevice::allocate(size_t bytes) {
   lane_->enter();
   return std::make_unique<GpuMemory>(lane_, bytes);
@@ -77,14 +79,30 @@ std::unique_ptr<rg::background::Operations> GpuDevice::backgroundOperations(
   return background::makeOperations(*this, executor);
 }
 
-Result<std::shared_ptr<Device>> openDevice(int device) {
+std::unique_ptr<rg::segmentation::Operations> GpuDevice::segmentationOperations(
+    const Executor& executor) {
+  return segmentation::makeOperations(*this, executor);
+}
+
+std::unique_ptr<rg::graph::Operations> GpuDevice::graphOperations(const Executor& executor) {
+  return graph::makeOperations(*this, executor);
+}
+
+std::unique_ptr<rg::motion::Operations> GpuDevice::motionOperations(const Executor& executor) {
+  return motion::makeOperations(*this, executor);
+}
+
+Result<std::shared_ptr<Device>> openDevice(int device, const std::shared_ptr<Device>& neighbour) {
+  if (const auto* other = dynamic_cast<GpuDevice*>(neighbour.get()))
+    return std::shared_ptr<Device>(std::make_shared<GpuDevice>(other->name(), other->lane()));
   const int count = runtime::countDevices();
   if (count == 0) return Error{"no CUDA device can be used: " + runtime::whyNone()};
   if (device < 0 || device >= count)
     return Error{"there is no CUDA device " + std::to_string(device) + "; device-id must be 0 to " +
                  std::to_string(count - 1)};
   try {
-    return std::shared_ptr<Device>(std::make_shared<GpuDevice>(device));
+    return std::shared_ptr<Device>(
+        std::make_shared<GpuDevice>(runtime::nameOf(device), std::make_shared<Lane>(device)));
   } catch (const DeviceError& error) {
     return Error{"CUDA device " + std::to_string(device) + " can't be used: " + error.what()};
   }

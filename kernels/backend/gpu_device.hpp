@@ -5,17 +5,22 @@
 
 #include "core/background/operations.hpp"
 #include "core/base/memory/device.hpp"
+#include "core/graph/operations.hpp"
+#include "core/motion/operations.hpp"
+#include "core/segmentation/operations.hpp"
 #include "kernels/backend/open_device.hpp"
 #include "kernels/launch.hpp"
 
 #include <cstddef>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace rg::gpu {
 
-/// A stream of one device; what was made of it keeps it.
+/// A stream of one device; what was made of it keeps it. Devices that share it see each other's
+/// memory: what one is asked comes behind what the others were asked before.
 class Lane {
  public:
   /// Throws DeviceError.
@@ -62,14 +67,25 @@ class Scratch {
 };
 
 /// Serves one stage, on one thread at a time.
-class GpuDevice final : public Device, public rg::background::OperationsSource {
+class GpuDevice final : public Device,
+                        public rg::background::OperationsSource,
+                        public rg::segmentation::OperationsSource,
+                        public rg::graph::OperationsSource,
+                        public rg::motion::OperationsSource {
  public:
-  /// Throws DeviceError.
-  explicit GpuDevice(int device);
+  GpuDevice(std::string name, std::shared_ptr<Lane> lane)
+      : name_(std::move(name)), lane_(std::move(lane)), scratch_(lane_) {}
 
   [[nodiscard]] std::string name() const override { return name_; }
+  [[nodiscard]] const void* space() const override { return lane_.get(); }
   [[nodiscard]] std::unique_ptr<DeviceMemory> allocate(size_t bytes) override;
   [[nodiscard]] std::unique_ptr<rg::background::Operations> backgroundOperations(
+      const Executor& executor) override;
+  [[nodiscard]] std::unique_ptr<rg::segmentation::Operations> segmentationOperations(
+      const Executor& executor) override;
+  [[nodiscard]] std::unique_ptr<rg::graph::Operations> graphOperations(
+      const Executor& executor) override;
+  [[nodiscard]] std::unique_ptr<rg::motion::Operations> motionOperations(
       const Executor& executor) override;
 
   [[nodiscard]] const std::shared_ptr<Lane>& lane() const { return lane_; }

@@ -3,7 +3,7 @@
 
 namespace rg::gpu {
 
-Result<std::shared_ptr<Device>> openDevice(int) {
+Result<std::shared_ptr<Device>> openDevice(int, const std::shared_ptr<Device>&) {
   return Error{
       "this build has no CUDA: install the CUDA toolkit (nvcc) and build with -Dcuda=enabled"};
 }

@@ -9,7 +9,9 @@
 
 namespace rg::gpu {
 
-/// Number `device` of the machine's, or why it can't be used and what would help.
-[[nodiscard]] Result<std::shared_ptr<Device>> openDevice(int device);
+/// Number `device` of the machine's, or why it can't be used and what would help. It serves one
+/// stage, on one thread at a time, and shares memory with `neighbour`, which is of the same number.
+[[nodiscard]] Result<std::shared_ptr<Device>> openDevice(
+    int device, const std::shared_ptr<Device>& neighbour = nullptr);
 
 }  // namespace rg::gpu

@@ -14,18 +14,19 @@ namespace {
 constexpr uint32_t kWarpLanes = 32;
 constexpr size_t kMostFindings = 5;
 
-enum class State : uint8_t { Ready, AtBlock, AtWarp, Done };
+enum class State : uint8_t { Fresh, Ready, AtBlock, AtWarp, Done };
 
 struct Warp {
-  std::array<uint64_t, kWarpLanes> values;
+  /// In turn: what was given last may be read until all have given something again.
+  std::array<std::array<uint64_t, kWarpLanes>, 2> values;
   uint32_t arrived = 0;
   uint32_t moment = 0;
 };
 
 struct Thread {
-  Fiber fiber;
   Extent index;
   State state = State::Done;
+  uint32_t fiber = 0;                       ///< That it runs on, once it is no more fresh.
   std::array<uint64_t, kWarpLanes> seen{};  ///< What its warp gave.
 };
 
@@ -56,7 +57,10 @@ class Machine {
   void suspend(State state);
   void prepare(uint32_t count, const Extent& block);
   void runBlock(uint32_t count);
-  bool runReady(const std::vector<uint32_t>& order);
+  bool runReady();
+  bool findReady();
+  void startOn(uint32_t fiber);
+  void freeFibers();
   std::vector<uint32_t> orderOf(uint32_t count);
 
   Schedule schedule_;
@@ -65,24 +69,37 @@ class Machine {
   const Launch* launch_ = nullptr;
   const Task<>* body_ = nullptr;
   std::vector<Thread> threads_;
+  std::vector<Fiber> fibers_;
+  std::vector<uint32_t> idle_;  ///< Fibers that no thread is on.
+  std::vector<uint32_t> order_;
+  size_t next_ = 0;  ///< In it: who comes next.
   std::vector<Warp> warps_;
   uint32_t current_ = 0, count_ = 0, waiting_ = 0, done_ = 0;
   uint32_t moment_ = 0, serial_ = 0, drawn_ = 0;
 };
 
-/// What a fiber does for ever: a block's thread, then the next block's.
+/// What a fiber does for ever: one thread to its end, and on the same stack the next ones that have
+/// not begun, so that threads that wait for nobody need no switch.
 void Machine::live() {
   for (;;) {
     (*body_)();
+    Thread& thread = threads_[current_];
+    const uint32_t fiber = thread.fiber;
+    thread.state = State::Done;
     ++done_;
-    suspend(State::Done);
+    if (findReady() && threads_[order_[next_]].state == State::Fresh) {
+      startOn(fiber);
+    } else {
+      idle_.push_back(fiber);
+      fibers_[fiber].suspend();
+    }
   }
 }
 
 void Machine::suspend(State state) {
   Thread& thread = threads_[current_];
   thread.state = state;
-  thread.fiber.suspend();
+  fibers_[thread.fiber].suspend();
 }
 
 void Machine::waitForBlock() {
@@ -96,19 +113,18 @@ void Machine::waitForBlock() {
 const std::array<uint64_t, 32>& Machine::waitForWarp(uint64_t value) {
   Warp& warp = warps_[current_ / kWarpLanes];
   const uint32_t lane = current_ % kWarpLanes, first = current_ - lane;
-  warp.values[lane] = value;
+  std::array<uint64_t, kWarpLanes>& values = warp.values[warp.moment % 2];
+  values[lane] = value;
   warp.arrived |= uint32_t{1} << lane;
   if (warp.arrived != ~uint32_t{0}) {
     suspend(State::AtWarp);
-    return threads_[current_].seen;
+    return values;
   }
   warp.arrived = 0;
   ++warp.moment;
-  for (uint32_t i = first; i < first + kWarpLanes; ++i) {
-    threads_[i].seen = warp.values;
+  for (uint32_t i = first; i < first + kWarpLanes; ++i)
     if (threads_[i].state == State::AtWarp) threads_[i].state = State::Ready;
-  }
-  return threads_[current_].seen;
+  return values;
 }
 
 std::vector<uint32_t> Machine::orderOf(uint32_t count) {
@@ -121,14 +137,33 @@ std::vector<uint32_t> Machine::orderOf(uint32_t count) {
   return order;
 }
 
-bool Machine::runReady(const std::vector<uint32_t>& order) {
+/// Goes on to a thread that can run.
+bool Machine::findReady() {
+  while (next_ < order_.size() && threads_[order_[next_]].state > State::Ready) ++next_;
+  return next_ < order_.size();
+}
+
+/// Of the next thread, which is fresh.
+void Machine::startOn(uint32_t fiber) {
+  current_ = order_[next_++];
+  Thread& thread = threads_[current_];
+  threadIdx = thread.index;
+  thread.state = State::Ready;
+  thread.fiber = fiber;
+}
+
+bool Machine::runReady() {
   bool hasMoved = false;
-  for (const uint32_t i : order) {
-    if (threads_[i].state != State::Ready) continue;
-    hasMoved = true;
-    current_ = i;
-    threadIdx = threads_[i].index;
-    threads_[i].fiber.resume();
+  for (next_ = 0; findReady(); hasMoved = true) {
+    if (threads_[order_[next_]].state == State::Fresh) {
+      const uint32_t fiber = idle_.back();
+      idle_.pop_back();
+      startOn(fiber);
+    } else {
+      current_ = order_[next_++];
+      threadIdx = threads_[current_].index;
+    }
+    fibers_[threads_[current_].fiber].resume();
   }
   return hasMoved;
 }
@@ -137,21 +172,33 @@ void Machine::runBlock(uint32_t count) {
   ++moment_;
   ++serial_;
   waiting_ = done_ = 0;
-  for (uint32_t i = 0; i < count; ++i) threads_[i].state = State::Ready;
-  const std::vector<uint32_t> order = orderOf(count);
+  for (uint32_t i = 0; i < count; ++i) threads_[i].state = State::Fresh;
+  order_ = orderOf(count);
   while (done_ < count) {
-    if (runReady(order)) continue;
+    if (runReady()) continue;
     report("a barrier that not all threads come to");
-    for (Thread& thread : threads_) thread.fiber.restart();
+    freeFibers();
     for (Warp& warp : warps_) warp.arrived = 0;
     return;
+  }
+}
+
+void Machine::freeFibers() {
+  idle_.clear();
+  for (uint32_t i = 0; i < fibers_.size(); ++i) {
+    fibers_[i].restart();
+    idle_.push_back(i);
   }
 }
 
 void Machine::prepare(uint32_t count, const Extent& block) {
   if (count % kWarpLanes != 0 || count > 1024) report("a block of " + std::to_string(count));
   count_ = count;
-  while (threads_.size() < count) threads_.push_back({Fiber(&Machine::enter, this), {}});
+  if (threads_.size() < count) threads_.resize(count);
+  while (fibers_.size() < count) {
+    idle_.push_back(static_cast<uint32_t>(fibers_.size()));
+    fibers_.emplace_back(&Machine::enter, this);
+  }
   warps_.resize((threads_.size() + kWarpLanes - 1) / kWarpLanes);
   for (uint32_t i = 0; i < count; ++i)
     threads_[i].index = {i % block.x, i / block.x % block.y, i / (block.x * block.y)};

@@ -86,6 +86,11 @@ void release(void* memory, Stream) noexcept {
   ::operator delete(memory, kAlign);
 }
 
+void clear(void* memory, size_t bytes, Stream) {
+  shim::call("clear");
+  std::memset(memory, 0, bytes);
+}
+
 void upload(void* to, const void* from, size_t bytes, Stream) {
   shim::call("upload");
   std::memcpy(to, from, bytes);

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "kernels/backend/motion_operations.hpp"
+
+#include "kernels/backend/dispatcher.hpp"
+#include "kernels/motion_estimate.hpp"
+#include "kernels/shift_search.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+namespace rg::gpu::motion {
+namespace {
+
+using rg::motion::FoundShift;
+using rg::motion::GradientProducts;
+using rg::motion::MatchedFrames;
+using rg::motion::MatchedPart;
+using rg::motion::PaddedLuma;
+using rg::motion::RegionMotion;
+using rg::motion::ShiftRange;
+using rg::motion::WholeShifts;
+using Cpu = rg::motion::Operations;
+
+class GpuOperations final : public Cpu, private Dispatcher {
+ public:
+  GpuOperations(GpuDevice& device, const Executor& executor) : Cpu(executor), Dispatcher(device) {}
+
+  void searchShifts(const MatchedFrames& frames, const WholeShifts& out) override {
+    listRegions(frames, out);
+    if (regions_.empty()) return Cpu::searchShifts(frames, out);
+    runOrCatchUp([&] { searchOnDevice(frames, out); }, [&] { Cpu::searchShifts(frames, out); });
+  }
+
+ private:
+  /// Those that have matched blocks, which are all that a device is told of.
+  void listRegions(const MatchedFrames& frames, const WholeShifts& out) {
+    regions_.clear();
+    gradients_.clear();
+    starts_.assign(1, 0);
+    for (uint32_t i = 0; i < out.motion.size(); ++i) {
+      const auto label = rg::segmentation::RegionLabel::ofIndex(i);
+      const size_t parts = frames.blocks.partsOf(label).size();
+      if (parts == 0) continue;
+      regions_.push_back(i);
+      gradients_.push_back(frames.blocks.gradientsOf(label));
+      starts_.push_back(starts_.back() + static_cast<uint32_t>(parts));
+    }
+  }
+
+  void searchOnDevice(const MatchedFrames& frames, const WholeShifts& out) {
+    const auto count = static_cast<int>(regions_.size());
+    const std::span<const MatchedPart> parts = frames.blocks.parts();
+    auto* still = scratch().take<uint8_t>(count);
+    const MatchedRegions regions{sent(parts), sent(std::span<const uint32_t>(starts_)), count,
+                                 still};
+    const GradientProducts* gradients = sent(std::span<const GradientProducts>(gradients_));
+    const ImageView<const uint8_t> luma = frames.current.readOn(device()).luma;
+    const ImageView<const uint8_t> before = frames.previous.readOn(device()).luma;
+    findStill(regions, luma, before, still, stream());
+    const ShiftRange range{frames.maxShiftPx, frames.maxShiftPx + 1};
+    auto* found = scratch().take<FoundShift>(count);
+    rg::gpu::motion::searchShifts(regions, padded(luma, before, range.reach), range,
+                                  sumsFor(range, count), found, stream());
+    auto* motion = scratch().take<RegionMotion>(count);
+    estimateMotion(regions, found, gradients, motion, stream());
+    // Meanwhile.
+    padLuma(frames);
+    fetchList(still, static_cast<uint32_t>(count), stills_);
+    fetchList(motion, static_cast<uint32_t>(count), motions_);
+    for (size_t i = 0; i < regions_.size(); ++i) {
+      out.isStill[regions_[i]] = stills_[i];
+      out.motion[regions_[i]] = motions_[i];
+    }
+  }
+
+  [[nodiscard]] SearchedPlanes padded(ImageView<const uint8_t> luma,
+                                      ImageView<const uint8_t> before, int reach) const {
+    const Size size{before.width() + 2 * reach + PaddedLuma::kSlack, before.height() + 2 * reach};
+    const PaddedView previous{before.size, reach, scratchPlane<uint8_t>(size)};
+    const BoxesView boxes{scratchPlane<uint16_t>(size)};
+    rg::gpu::motion::padLuma(before, previous, stream());
+    sumBoxes(previous, boxes, stream());
+    return {luma, previous, boxes};
+  }
+
+  /// As many regions at once as that many sums allow.
+  [[nodiscard]] ShiftSums sumsFor(const ShiftRange& range, int count) const {
+    constexpr int kMostSums = 1 << 23;
+    const int shifts = shiftsOf(range), regions = std::clamp(kMostSums / shifts, 1, count);
+    const int64_t sums = int64_t{shifts} * regions;
+    return {scratch().take<uint32_t>(sums), scratch().take<uint32_t>(sums), regions};
+  }
+
+  template <class T>
+  [[nodiscard]] const T* sent(std::span<const T> list) const {
+    auto* there = scratch().take<T>(static_cast<int64_t>(list.size()));
+    send(there, list.data(), list.size_bytes());
+    return there;
+  }
+
+  std::vector<uint32_t> regions_, starts_;
+  std::vector<GradientProducts> gradients_;
+  std::vector<uint8_t> stills_;
+  std::vector<RegionMotion> motions_;
+};
+
+}  // namespace
+
+std::unique_ptr<rg::motion::Operations> makeOperations(GpuDevice& device,
+                                                       const Executor& executor) {
+  return std::make_unique<GpuOperations>(device, executor);
+}
+
+}  // namespace rg::gpu::motion
