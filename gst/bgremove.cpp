@@ -87,7 +87,7 @@ constexpr std::array kProperties{
         "threshold",
         "Least difference from the background, in grey levels of a channel, that can be "
         "foreground; "
-        "0 = found by the method from the noise of the picture",
+        "0 = found by the method from the noise and the contrast of the picture",
         0, 255),
     property<Settings, &Settings::findsShadows>(
         "shadows", "Tell cast shadows from foreground: they get 128 in the mask instead of 255"),
@@ -165,20 +165,7 @@ class BgRemove final : public PixelFilter<Settings, background::Stage> {
       postError(read.error().message);
       return false;
     }
-    auto device = openBackend(settings);
-    if (!device) {
-      postError("backend=cuda: " + device.error().message + ". With backend=auto the CPU does it");
-      return false;
-    }
-    use(*std::move(device));
-    hasToldFailure_ = false;
-    tellBackend(nameOfBackend(settings));
     return PixelFilter::start();
-  }
-  void stop() override {
-    PixelFilter::stop();
-    use(nullptr);
-    tellBackend({});
   }
 
   GstFlowReturn process(const FilterFrame& frame) override {
@@ -189,7 +176,6 @@ class BgRemove final : public PixelFilter<Settings, background::Stage> {
       attachSkipped<background::Foreground>(frame);
     } else if (auto picture = load(frame)) {
       auto result = stage().process(*std::move(picture), settings, frame.time);
-      followBackend(settings);
       if (result) tell((*result)->scene, momentOf(frame.buffer, settings.origin));
       attach<background::Foreground>(frame, std::move(result));
     } else {
@@ -214,23 +200,11 @@ class BgRemove final : public PixelFilter<Settings, background::Stage> {
     return settings;
   }
 
-  /// Only method hybrid has kernels.
-  [[nodiscard]] std::string nameOfBackend(const Settings& settings) const {
-    const bool isOnDevice =
-        device() && device()->isUp() && settings.method == background::Method::Hybrid;
-    return isOnDevice ? "cuda: " + device()->name() : "cpu";
+  [[nodiscard]] bool hasKernels(const Settings& settings) const override {
+    return settings.method == background::Method::Hybrid;
   }
-  void tellBackend(std::string name) {
-    const std::lock_guard lock(settingsMutex());
-    settings_.activeBackend = std::move(name);
-  }
-  void followBackend(const Settings& settings) {
-    if (!device()) return;
-    tellBackend(nameOfBackend(settings));
-    const DeviceError* error = device()->error();
-    if (error == nullptr || std::exchange(hasToldFailure_, true)) return;
-    postWarning("The CUDA device failed: " + std::string(error->what()) + ". The CPU goes on" +
-                (error->isLost() ? ", with a new background model." : " where it was."));
+  [[nodiscard]] const char* lossOfDevice() const override {
+    return ", with a new background model.";
   }
 
   [[nodiscard]] Progress describe(const FilterFrame& frame) override {
@@ -260,7 +234,6 @@ class BgRemove final : public PixelFilter<Settings, background::Stage> {
 
   InterestMask interest_;
   InterestSettings inForce_;
-  bool hasToldFailure_ = false;  ///< Since the start.
 };
 
 const Settings kDefaults;

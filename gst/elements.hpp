@@ -9,6 +9,7 @@ GType gst_region_hsvsegment_get_type();
 GType gst_region_srg_get_type();
 GType gst_region_prmmotion_get_type();
 GType gst_region_mrfmerge_get_type();
+GType gst_region_haar_detect_get_type();
 GType gst_region_mask_get_type();
 GType gst_region_overlay_get_type();
 GType gst_region_text_get_type();
@@ -20,6 +21,7 @@ GST_ELEMENT_REGISTER_DECLARE(hsvsegment)
 GST_ELEMENT_REGISTER_DECLARE(srg)
 GST_ELEMENT_REGISTER_DECLARE(prmmotion)
 GST_ELEMENT_REGISTER_DECLARE(mrfmerge)
+GST_ELEMENT_REGISTER_DECLARE(haardetect)
 GST_ELEMENT_REGISTER_DECLARE(regionmask)
 GST_ELEMENT_REGISTER_DECLARE(regionoverlay)
 GST_ELEMENT_REGISTER_DECLARE(regionwrite)

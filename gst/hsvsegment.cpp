@@ -4,7 +4,9 @@
  * @title: hsvsegment
  *
  * Divides the picture, or the foreground that bgremove found, into regions of one colour and
- * attaches the number of its region to every pixel; the pixels themselves pass untouched.
+ * attaches the number of its region to every pixel; the pixels themselves pass untouched. Regions
+ * grow by red, green and blue; colour-space=hsv lets them grow by hue, saturation and value, as the
+ * paper does.
  *
  * |[
  * gst-launch-1.0 filesrc location=clip.avi ! decodebin ! videoconvert ! hsvsegment max-regions=160
@@ -44,7 +46,20 @@ GType scopeType() {
   return type;
 }
 
-struct Settings : PixelSettings, segmentation::Params {
+GType colourSpaceType() {
+  static const GEnumValue values[] = {
+      {static_cast<int>(segmentation::ColourSpace::Rgb),
+       "Red, green and blue as the video holds them (R'G'B')", "rgb"},
+      {static_cast<int>(segmentation::ColourSpace::Hsv),
+       "Hue, in 256ths of the colour circle, saturation and value, as the paper does; pixels too "
+       "grey for a hue go by the other two",
+       "hsv"},
+      {0, nullptr, nullptr}};
+  static const GType type = registerEnum("GstRegionColourSpace", values);
+  return type;
+}
+
+struct Settings : PixelSettings, segmentation::Params, BackendSettings {
   ScopeChoice scopeChoice = ScopeChoice::Auto;
   std::string backgroundHue;
   std::string objectHue;
@@ -59,6 +74,11 @@ constexpr std::array kProperties{
         "Largest difference between neighbouring pixels of one region, in grey levels of a channel "
         "of the smoothed picture. Lower gives more and smaller regions",
         0, 254),
+    enumProperty<Settings, &Settings::space>(
+        "colour-space",
+        "The channels by whose largest difference pixels grow into a region; what is smaller than "
+        "min-area is absorbed by R'G'B' in either case",
+        colourSpaceType),
     property<Settings, &Settings::minAreaPx>(
         "min-area",
         "Regions with fewer pixels are absorbed by the neighbour most like them; 0 = 1/1200 of the "
@@ -79,6 +99,9 @@ constexpr std::array kProperties{
         "350-10 for red; empty = all hues"),
     analysisHeightProperty<Settings>(),
     threadsProperty<Settings>(),
+    backendProperty<Settings>(),
+    deviceIdProperty<Settings>(),
+    activeBackendProperty<Settings>(),
     statsProperty<Settings>(),
     badBuffersProperty<Settings>(),
 };
@@ -178,6 +201,10 @@ class HsvSegment final : public PixelFilter<Settings, segmentation::Stage> {
               std::shared_ptr<const background::Foreground> foreground, const Settings& settings) {
     attach<segmentation::Labels>(
         frame, stage().process(std::move(picture), std::move(foreground), settings));
+  }
+
+  [[nodiscard]] bool hasKernels(const Settings& settings) const override {
+    return settings.space == segmentation::ColourSpace::Rgb;
   }
 
   [[nodiscard]] Progress describe(const FilterFrame& frame) override {

@@ -53,6 +53,19 @@ namespace {
 
 constexpr int kManyStanding = 10;
 
+GType methodType() {
+  static const GEnumValue values[] = {
+      {static_cast<int>(objects::Method::Extended),
+       "By the energy, with what is known of the frames before and of the ground", "extended"},
+      {static_cast<int>(objects::Method::Literal),
+       "As the paper says: the energy over this frame's regions alone; the largest group, or what "
+       "has no region if that is more, is the background",
+       "literal"},
+      {0, nullptr, nullptr}};
+  static const GType type = registerEnum("GstRegionMergeMethod", values);
+  return type;
+}
+
 struct Settings : StageSettings, objects::Params, OriginSettings {
   double latencyS = 0.0;
 };
@@ -90,6 +103,7 @@ constexpr std::array kProperties{
                                                  "Smallest object, in percent of the frame's area; "
                                                  "0 = learnt from the sizes seen in the scene",
                                                  0, 100),
+    enumProperty<Settings, &Settings::method>("method", "How regions become groups", methodType),
     property<Settings, &Settings::latencyS>(
         "latency",
         "Seconds for which frames are held back, so that an object is told from when it was first "

@@ -12,6 +12,7 @@ static gboolean pluginInit(GstPlugin* plugin) {
   isComplete &= GST_ELEMENT_REGISTER(srg, plugin);
   isComplete &= GST_ELEMENT_REGISTER(prmmotion, plugin);
   isComplete &= GST_ELEMENT_REGISTER(mrfmerge, plugin);
+  isComplete &= GST_ELEMENT_REGISTER(haardetect, plugin);
   isComplete &= GST_ELEMENT_REGISTER(regionmask, plugin);
   isComplete &= GST_ELEMENT_REGISTER(regiontext, plugin);
   isComplete &= GST_ELEMENT_REGISTER(regiontrack, plugin);

@@ -24,7 +24,22 @@
 namespace rg {
 namespace {
 
-struct Settings : StageSettings, motion::Params {};
+GType methodType() {
+  static const GEnumValue values[] = {
+      {static_cast<int>(motion::Method::Refined),
+       "Pixels away from the regions' borders, fractions of a pixel, and the neighbours' say where "
+       "a region tells little",
+       "refined"},
+      {static_cast<int>(motion::Method::Literal),
+       "As the paper says: the sums of absolute differences over all of a region's pixels, whole "
+       "pixels, no neighbours. Slow",
+       "literal"},
+      {0, nullptr, nullptr}};
+  static const GType type = registerEnum("GstRegionMotionMethod", values);
+  return type;
+}
+
+struct Settings : StageSettings, motion::Params, BackendSettings {};
 
 constexpr std::array kProperties{
     property<Settings, &Settings::maxShiftPx>(
@@ -33,8 +48,13 @@ constexpr std::array kProperties{
         "shift of all is found; 64 takes about twice as long as 20",
         1, 64),
     property<Settings, &Settings::isSubpixel>(
-        "subpixel", "Refine vectors to 1/16 pixel; otherwise they are whole pixels"),
+        "subpixel",
+        "Refine vectors to 1/16 pixel; otherwise, and with method=literal, they are whole pixels"),
+    enumProperty<Settings, &Settings::method>("method", "How regions are matched", methodType),
     threadsProperty<Settings>(),
+    backendProperty<Settings>(),
+    deviceIdProperty<Settings>(),
+    activeBackendProperty<Settings>(),
     statsProperty<Settings>(),
 };
 
@@ -51,6 +71,10 @@ class PrmMotion final : public ChainedFilter<Settings, motion::Stage, graph::Gra
       attach<motion::Motion>(frame, stage().process(std::move(graph), settings));
     else
       attachSkipped<motion::Motion>(frame);
+  }
+
+  [[nodiscard]] bool hasKernels(const Settings& settings) const override {
+    return settings.method == motion::Method::Refined;
   }
 
   [[nodiscard]] Progress describe(const FilterFrame& frame) override {

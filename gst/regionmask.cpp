@@ -14,12 +14,12 @@
  * ]|
  */
 #include "gst/elements.hpp"
-#include "gst/meta/result_meta.hpp"
 #include "gst/support/filter.hpp"
 #include "gst/support/guarded.hpp"
 #include "gst/support/lost_results.hpp"
 #include "gst/support/mask_painter.hpp"
 #include "gst/support/properties.hpp"
+#include "gst/support/shown_result.hpp"
 #include "gst/support/video_map.hpp"
 
 #include <gst/base/gstbasetransform.h>
@@ -193,13 +193,31 @@ gboolean decideAllocation(GstBaseTransform* element, GstQuery* query) {
 
 gboolean proposeAllocation(GstBaseTransform*, GstQuery*, GstQuery* query) {
   gst_query_add_allocation_meta(query, GST_VIDEO_META_API_TYPE, nullptr);
+  gst_query_add_allocation_meta(query, GST_VIDEO_CROP_META_API_TYPE, nullptr);
   return TRUE;
 }
 
+template <class Payload>
+void attachShown(GstBuffer* from, GstBuffer* to, Size size) {
+  if (auto result = findShown<Payload>(from, size)) attachResult<Payload>(to, std::move(result));
+}
+
+/// The mask is of the part of a frame that is shown, and so are the region metas on it.
+void attachShownParts(GstBuffer* from, GstBuffer* to, Size size) {
+  attachShown<background::Foreground>(from, to, size);
+  attachShown<segmentation::Labels>(from, to, size);
+  attachShown<graph::Graph>(from, to, size);
+  attachShown<motion::Motion>(from, to, size);
+  attachShown<objects::Objects>(from, to, size);
+}
+
 /// The region metas go on: they tell the size that they were made for. Those about the frame's
-/// memory don't.
+/// memory don't, nor those of which videocrop shows a part without telling them.
 gboolean transformMeta(GstBaseTransform* element, GstBuffer* to, GstMeta* meta, GstBuffer* from) {
   const GType api = meta->info->api;
+  if (api == GST_VIDEO_CROP_META_API_TYPE) return FALSE;
+  const bool isCropped = gst_buffer_get_video_crop_meta(from) != nullptr;
+  if (isCropped && api == GST_VIDEO_REGION_OF_INTEREST_META_API_TYPE) return FALSE;
   for (const GType ours : {metaInfo<background::Foreground>()->api,
                            metaInfo<segmentation::Labels>()->api, metaInfo<graph::Graph>()->api,
                            metaInfo<motion::Motion>()->api, metaInfo<objects::Objects>()->api})
@@ -231,6 +249,9 @@ GstFlowReturn transform(GstBaseTransform* element, GstBuffer* in, GstBuffer* out
     GST_ELEMENT_ERROR(element, RESOURCE, WRITE, ("The output buffer can't be mapped."), (nullptr));
     return GST_FLOW_ERROR;
   }
+  if (gst_buffer_get_video_crop_meta(in))
+    attachShownParts(in, out,
+                     {GST_VIDEO_INFO_WIDTH(&mask.output), GST_VIDEO_INFO_HEIGHT(&mask.output)});
   const bool wasThere = paintMask(source, in, video.frame());
   const GstFlowReturn flow = wasThere ? GST_FLOW_OK : handleMissing(element, source);
   mask.isFirst = false;

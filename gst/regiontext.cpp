@@ -128,6 +128,7 @@ const FilterDescription kDescription{
     .defaults = &kDefaults,
     .create = [](GstBaseTransform* element) -> Filter* { return new RegionText(element); },
     .srcCaps = kTextCaps,
+    .takesCrops = true,
 };
 
 }  // namespace

@@ -5,9 +5,9 @@
  *
  * bgremove ! hsvsegment ! srg ! prmmotion ! mrfmerge in one element, for applications that take
  * one. Its properties are those of the five, under their own names; one that several have is set
- * for all of them. The children have the names of
- * their elements and can be reached through GstChildProxy as well; one that is none is an error
- * when the bin starts. Element messages come from the children.
+ * for all of them, but for method, which is bgremove's. The children have the names of their
+ * elements and can be reached through GstChildProxy as well (prmmotion::method); one that is none
+ * is an error when the bin starts. Element messages come from the children.
  *
  * |[
  * gst-launch-1.0 -q filesrc location=clip.avi ! decodebin ! videoconvert !
@@ -95,7 +95,30 @@ void setProperty(GObject* object, guint id, const GValue* value, GParamSpec* spe
   });
 }
 
+/// What a frame took in all stages. Frames are those of the last one; those without a result of the
+/// stage that had most, as a frame that one skips the others may skip, too.
+GstStructure* sumOfStats(GObject* bin) {
+  GstStructure* sum = nullptr;
+  double mean = 0, worst = 0;
+  guint64 dropped = 0;
+  for (GstElement* child : trackOf(bin).children) {
+    g_clear_pointer(&sum, gst_structure_free);
+    g_object_get(child, "stats", &sum, nullptr);
+    double ofMean = 0, ofWorst = 0;
+    guint64 ofDropped = 0;
+    gst_structure_get(sum, "dropped", G_TYPE_UINT64, &ofDropped, "ms-mean", G_TYPE_DOUBLE, &ofMean,
+                      "ms-worst", G_TYPE_DOUBLE, &ofWorst, nullptr);
+    dropped = std::max(dropped, ofDropped);
+    mean += ofMean;
+    worst += ofWorst;
+  }
+  gst_structure_set(sum, "dropped", G_TYPE_UINT64, dropped, "ms-mean", G_TYPE_DOUBLE, mean,
+                    "ms-worst", G_TYPE_DOUBLE, worst, nullptr);
+  return sum;
+}
+
 void getProperty(GObject* object, guint id, GValue* value, GParamSpec* spec) {
+  if (id > proxied.count) return g_value_take_boxed(value, sumOfStats(object));
   visitChildren(object, id, [&](GObject* child) {
     g_object_get_property(child, spec->name, value);
     return false;
@@ -107,8 +130,8 @@ void finalize(GObject* object) {
   G_OBJECT_CLASS(parentClass)->finalize(object);
 }
 
-/// The properties of the children that can be set; one that several have is one here. Nobody steps
-/// their controllers.
+/// The properties of the children that can be set; one that several have is one here, but for an
+/// enum of another type (method): that is the first child's. Nobody steps their controllers.
 void installProxied(GObjectClass* klass) {
   for (size_t i = 0; i < kChildren.size(); ++i) {
     const FilterDescription& about = descriptionOf(kChildren[i].type());
@@ -118,6 +141,7 @@ void installProxied(GObjectClass* klass) {
       Proxied* const known = std::find_if(proxied.list.data(), end, [&](const Proxied& other) {
         return std::string_view(other.property->name) == property.name;
       });
+      if (known != end && known->property->enumType != property.enumType) continue;
       known->isOf[i] = true;
       if (known != end) continue;
       ++proxied.count;
@@ -128,6 +152,19 @@ void installProxied(GObjectClass* klass) {
                                       property.makeSpec(property, about.defaults, flags));
     }
   }
+}
+
+/// Behind the children's.
+void installStats(GObjectClass* klass) {
+  g_object_class_install_property(
+      klass, proxied.count + 1,
+      g_param_spec_boxed("stats", "stats",
+                         "Since the start: frames (guint64) that left, dropped (guint64: those "
+                         "that a stage had no "
+                         "result for), ms-mean (double: what the five stages took for a frame, "
+                         "together) and ms-worst "
+                         "(double: the sum of the stages' worst, which no frame took more than)",
+                         GST_TYPE_STRUCTURE, flagsOf(Mutable::Never)));
 }
 
 /// A launch line or an application that sets a property of a child that is none would wait for it
@@ -196,6 +233,7 @@ void initClass(gpointer klass, gpointer) {
   object->get_property = getProperty;
   object->finalize = finalize;
   installProxied(object);
+  installStats(object);
 
   auto* element = GST_ELEMENT_CLASS(klass);
   element->change_state = changeState;

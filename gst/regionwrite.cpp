@@ -284,6 +284,7 @@ const FilterDescription kDescription{
     .defaults = &kDefaults,
     .create = [](GstBaseTransform* element) -> Filter* { return new RegionWrite(element); },
     .action = "reopen",
+    .takesCrops = true,
 };
 
 }  // namespace

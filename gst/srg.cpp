@@ -32,12 +32,15 @@ GType connectivityType() {
   return type;
 }
 
-struct Settings : StageSettings, graph::Params {};
+struct Settings : StageSettings, graph::Params, BackendSettings {};
 
 constexpr std::array kProperties{
     enumProperty<Settings, &Settings::connectivity>(
         "connectivity", "Which pixels count as neighbours across a border", connectivityType),
     threadsProperty<Settings>(),
+    backendProperty<Settings>(),
+    deviceIdProperty<Settings>(),
+    activeBackendProperty<Settings>(),
     statsProperty<Settings>(),
 };
 

@@ -24,10 +24,36 @@ void freeMeta(GstMeta* meta, GstBuffer*) {
   reinterpret_cast<ResultMeta<Payload>*>(meta)->result.~Pointer();
 }
 
+#if GST_CHECK_VERSION(1, 28, 0)
+/// Crops, flips, and frames that were drawn into others: what stays in view follows.
+template <class Payload>
+gboolean placeMeta(GstBuffer* to, GstMeta* meta, const GstVideoMetaTransformMatrix& drawn) {
+  const auto sizeOf = [](const GstVideoInfo* info) {
+    return Size{GST_VIDEO_INFO_WIDTH(info), GST_VIDEO_INFO_HEIGHT(info)};
+  };
+  const auto boxOf = [](const GstVideoRectangle& r) { return Box{r.x, r.y, r.w, r.h}; };
+  const auto placement =
+      objects::placementOf({sizeOf(drawn.in_info), sizeOf(drawn.out_info),
+                            boxOf(drawn.in_rectangle), boxOf(drawn.out_rectangle), drawn.matrix});
+  if (!placement) return FALSE;
+  try {
+    attachResult(to,
+                 objects::place(reinterpret_cast<ResultMeta<Payload>*>(meta)->result, *placement));
+    return TRUE;
+  } catch (const std::bad_alloc&) {
+    return FALSE;
+  }
+}
+#endif
+
 /// A copy of the whole frame and a scaled frame share the result, which tells the size that it was
 /// made for. Anything else would put it in the wrong place, so it is dropped.
 template <class Payload>
 gboolean transformMeta(GstBuffer* to, GstMeta* meta, GstBuffer*, GQuark type, gpointer data) {
+#if GST_CHECK_VERSION(1, 28, 0)
+  if (GST_VIDEO_META_TRANSFORM_IS_MATRIX(type))
+    return placeMeta<Payload>(to, meta, *static_cast<GstVideoMetaTransformMatrix*>(data));
+#endif
   const bool isWholeCopy =
       GST_META_TRANSFORM_IS_COPY(type) && !static_cast<GstMetaTransformCopy*>(data)->region;
   if (!isWholeCopy && !GST_VIDEO_META_TRANSFORM_IS_SCALE(type)) return FALSE;

@@ -6,6 +6,9 @@
 #include "core/base/result.hpp"
 #include "gst/support/properties.hpp"
 
+#include <gst/gst.h>
+
+#include <concepts>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -42,6 +45,13 @@ constexpr Property activeBackendProperty() {
       0, 0, Mutable::Never);
 }
 
-/// The device that was asked for; null: the CPU. An error where only CUDA will do.
-[[nodiscard]] Result<std::shared_ptr<Device>> openBackend(const BackendSettings& settings);
+/// The device that was asked for; null: the CPU. An error where only CUDA will do. Elements of one
+/// pipeline share what lies on a device, by a GstContext.
+[[nodiscard]] Result<std::shared_ptr<Device>> openBackend(GstElement* element,
+                                                          const BackendSettings& settings);
+
+/// What a stage whose settings are `Settings` runs on; the CPU for a stage without the properties.
+template <class Settings>
+inline constexpr bool kHasBackend = std::derived_from<Settings, BackendSettings>;
+
 }  // namespace rg

@@ -53,4 +53,29 @@ gint Detections::idOf(uint64_t number) const {
   return seen ? seen->detection : 0;
 }
 
+gint addDetection(GstBuffer* buffer, GQuark type, const Box& box) {
+  GstAnalyticsRelationMeta* meta = gst_buffer_get_analytics_relation_meta(buffer);
+  if (!meta) meta = gst_buffer_add_analytics_relation_meta(buffer);
+  GstAnalyticsODMtd detection;
+  const bool isAdded = gst_analytics_relation_meta_add_od_mtd(meta, type, box.x, box.y, box.width,
+                                                              box.height, 1.0F, &detection);
+  return isAdded ? static_cast<gint>(detection.id) : 0;
+}
+
+void addClassification(GstBuffer* buffer, gint detection, const char* label) {
+  GstAnalyticsRelationMeta* meta = gst_buffer_get_analytics_relation_meta(buffer);
+  GstAnalyticsODMtd object;
+  GstAnalyticsClsMtd classification;
+  if (!meta ||
+      !gst_analytics_relation_meta_get_od_mtd(meta, static_cast<guint>(detection), &object))
+    return;
+  if (!gst_analytics_relation_meta_add_one_cls_mtd(meta, 1.0F, g_quark_from_string(label),
+                                                   &classification))
+    return;
+  gst_analytics_relation_meta_set_relation(meta, GST_ANALYTICS_REL_TYPE_CONTAIN, object.id,
+                                           classification.id);
+  gst_analytics_relation_meta_set_relation(meta, GST_ANALYTICS_REL_TYPE_IS_PART_OF,
+                                           classification.id, object.id);
+}
+
 }  // namespace rg

@@ -34,4 +34,10 @@ class Detections {
   [[maybe_unused]] GstBuffer* buffer_ = nullptr;  ///< Not where there is no GstAnalytics.
 };
 
+/// Adds a detection by itself; its number on this frame, 0 where there are none.
+gint addDetection(GstBuffer* buffer, GQuark type, const Box& box);
+
+/// Adds a class to a detection of this frame, which contains it, as DL Streamer has them.
+void addClassification(GstBuffer* buffer, gint detection, const char* label);
+
 }  // namespace rg

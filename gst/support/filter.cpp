@@ -11,7 +11,9 @@
 #include <tuple>
 #include <utility>
 
-#define RG_PIXEL_FORMATS "{ BGRx, RGBx, BGRA, RGBA, BGR, RGB, NV12, I420, GRAY8 }"
+#define RG_PIXEL_FORMATS                                                                 \
+  "{ BGRx, RGBx, BGRA, RGBA, BGR, RGB, NV12, I420, GRAY8, NV21, YUY2, UYVY, Y42B, GBR, " \
+  "I420_10LE, P010_10LE }"
 #define RG_SIZES \
   "width=(int)[1,16384], height=(int)[1,16384], framerate=(fraction)[0/1,2147483647/1]"
 
@@ -161,6 +163,7 @@ struct FilterShell {
     return GST_VIDEO_INFO_FORMAT(&a) == GST_VIDEO_INFO_FORMAT(&b) &&
            GST_VIDEO_INFO_WIDTH(&a) == GST_VIDEO_INFO_WIDTH(&b) &&
            GST_VIDEO_INFO_HEIGHT(&a) == GST_VIDEO_INFO_HEIGHT(&b) &&
+           GST_VIDEO_INFO_IS_INTERLACED(&a) == GST_VIDEO_INFO_IS_INTERLACED(&b) &&
            gst_video_colorimetry_is_equal(&a.colorimetry, &b.colorimetry);
   }
 
@@ -275,11 +278,18 @@ struct FilterShell {
   /// Buffers go on as they came, so what upstream may allocate is for downstream to say; those that
   /// are held here come on top.
   static gboolean proposeAllocation(GstBaseTransform* element, GstQuery*, GstQuery* query) {
-    if (classOf(element)->description->srcCaps) {
+    const FilterDescription& about = *classOf(element)->description;
+    if (about.srcCaps) {
       gst_query_add_allocation_meta(query, GST_VIDEO_META_API_TYPE, nullptr);
+      if (about.takesCrops)
+        gst_query_add_allocation_meta(query, GST_VIDEO_CROP_META_API_TYPE, nullptr);
       return TRUE;
     }
     const gboolean isHandled = gst_pad_peer_query(GST_BASE_TRANSFORM_SRC_PAD(element), query);
+    guint crop = 0;
+    while (!about.takesCrops &&
+           gst_query_find_allocation_meta(query, GST_VIDEO_CROP_META_API_TYPE, &crop))
+      gst_query_remove_nth_allocation_meta(query, crop);
     Filter* filter = filterOf(element);
     if (isHandled && filter && filter->latency() > 0)
       raisePools(query, static_cast<guint>(std::min(framesIn(filter->latency(), filter->info_),

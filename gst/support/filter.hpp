@@ -34,6 +34,7 @@ struct FilterDescription {
   Filter* (*create)(GstBaseTransform* element);
   const char* action = nullptr;   ///< Name of a signal that calls act().
   const char* srcCaps = nullptr;  ///< Where what leaves is no video: of the source pad.
+  bool takesCrops = false;        ///< Whether a GstVideoCropMeta on frames is followed.
 };
 
 /// The formats whose pixels the elements read, in system memory, up to 16384 pixels a side.

@@ -1,25 +1,16 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "gst/support/interest_mask.hpp"
 
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
-#include <fcntl.h>
+#include "gst/support/regular_file.hpp"
+
 #include <png.h>
-#include <sys/stat.h>
-#include <unistd.h>
 #include <utility>
 
 namespace rg {
 namespace {
 
 constexpr int64_t kMostPixels = int64_t{8192} * 4320;  // As many as a frame may have.
-constexpr off_t kMostBytes = off_t{256} << 20;  // Such a picture in four channels of 16 bits.
-
-struct CloseFile {
-  void operator()(std::FILE* file) const { std::fclose(file); }
-};
-using File = std::unique_ptr<std::FILE, CloseFile>;
+constexpr int64_t kMostMiB = 256;  // Such a picture in four channels of 16 bits.
 
 /// libpng's simplified reader; frees what it holds on every way out.
 struct PngReader {
@@ -36,34 +27,10 @@ Error unreadable(const std::string& path, const std::string& why) {
           "path for none"};
 }
 
-const char* kindOf(mode_t mode) {
-  if (S_ISDIR(mode)) return "it is a directory";
-  if (S_ISFIFO(mode)) return "it is a pipe";
-  return "it is no regular file";
-}
-
-/// Opens a regular file, or what a link to one leads to. Non-blocking: to open a pipe would wait
-/// for its writer, and to read from a device might never end.
-Result<File> openRegular(const std::string& path) {
-  const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK);
-  if (fd < 0) return unreadable(path, std::strerror(errno));
-  File file(::fdopen(fd, "rb"));
-  if (!file) {
-    const int reason = errno;
-    ::close(fd);
-    return unreadable(path, std::strerror(reason));
-  }
-  struct stat status;
-  if (::fstat(fd, &status) != 0) return unreadable(path, std::strerror(errno));
-  if (!S_ISREG(status.st_mode)) return unreadable(path, kindOf(status.st_mode));
-  if (status.st_size > kMostBytes) return unreadable(path, "more than 256 MiB");
-  return file;
-}
-
 /// Levels of grey; transparent pixels are black.
 Result<bool> readPng(const std::string& path, Image<uint8_t>& to) {
-  const Result<File> file = openRegular(path);
-  if (!file) return file.error();
+  const Result<File> file = openRegular(path, kMostMiB);
+  if (!file) return unreadable(path, file.error().message);
   PngReader reader;
   if (!png_image_begin_read_from_stdio(&reader.image, file->get()))
     return unreadable(path, reader.image.message);

@@ -2,6 +2,7 @@
 #include "gst/support/line_filter.hpp"
 
 #include "gst/support/capture_time.hpp"
+#include "gst/support/shown_result.hpp"
 
 namespace rg {
 
@@ -26,9 +27,10 @@ GstFlowReturn LineFilter::appendRegions(std::string& out, const FilterFrame& fra
                                         const text::FrameStamp& stamp) {
   const auto upstream = require<graph::Graph>(frame, "srg");
   if (!upstream.result) return upstream.flow;
-  const auto motion = findResult<motion::Motion>(frame.buffer);
-  const auto objects = findResult<objects::Objects>(frame.buffer);
-  text::appendRegions(out, {upstream.result.get(), motion.get(), objects.get()}, stamp);
+  const auto graph = asShown(frame.buffer, stamp.size, upstream.result);
+  const auto motion = findShown<motion::Motion>(frame.buffer, stamp.size);
+  const auto objects = findShown<objects::Objects>(frame.buffer, stamp.size);
+  text::appendRegions(out, {graph.get(), motion.get(), objects.get()}, stamp);
   return GST_FLOW_OK;
 }
 
@@ -36,7 +38,8 @@ GstFlowReturn LineFilter::appendObjects(std::string& out, const FilterFrame& fra
                                         const text::FrameStamp& stamp, const Lines& lines) {
   const auto upstream = require<objects::Objects>(frame, "mrfmerge");
   if (upstream.flow != GST_FLOW_OK) return upstream.flow;
-  const objects::Objects& objects = upstream.result ? *upstream.result : skipped_;
+  const auto shown = asShown(frame.buffer, stamp.size, upstream.result);
+  const objects::Objects& objects = shown ? *shown : skipped_;
   if (lines.format == LineFormat::Mot)
     text::appendMot(out, objects, stamp);
   else if (lines.format == LineFormat::Graph)

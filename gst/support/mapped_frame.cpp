@@ -3,6 +3,7 @@
 
 #include "gst/support/foreign_enum.hpp"
 
+#include <algorithm>
 #include <array>
 #include <string>
 
@@ -23,10 +24,24 @@ std::optional<PixelFormat> formatOf(GstVideoFormat format) {
       return PixelFormat::Bgr;
     case GST_VIDEO_FORMAT_RGB:
       return PixelFormat::Rgb;
+    case GST_VIDEO_FORMAT_GBR:
+      return PixelFormat::Gbr;
     case GST_VIDEO_FORMAT_NV12:
       return PixelFormat::Nv12;
+    case GST_VIDEO_FORMAT_NV21:
+      return PixelFormat::Nv21;
     case GST_VIDEO_FORMAT_I420:
       return PixelFormat::I420;
+    case GST_VIDEO_FORMAT_Y42B:
+      return PixelFormat::Y42b;
+    case GST_VIDEO_FORMAT_YUY2:
+      return PixelFormat::Yuy2;
+    case GST_VIDEO_FORMAT_UYVY:
+      return PixelFormat::Uyvy;
+    case GST_VIDEO_FORMAT_I420_10LE:
+      return PixelFormat::I420Ten;
+    case GST_VIDEO_FORMAT_P010_10LE:
+      return PixelFormat::P010;
     case GST_VIDEO_FORMAT_GRAY8:
       return PixelFormat::Gray8;
     default:
@@ -60,21 +75,50 @@ std::optional<FrameLayout> layoutOf(const GstVideoInfo& info) {
   return FrameLayout{*format,
                      {GST_VIDEO_INFO_WIDTH(&info), GST_VIDEO_INFO_HEIGHT(&info)},
                      matrixOf(numberIn(info.colorimetry.matrix)),
-                     range};
+                     range,
+                     GST_VIDEO_INFO_IS_INTERLACED(&info) != FALSE};
 }
 
 MappedFrame::MappedFrame(GstBuffer* buffer, const GstVideoInfo& info)
-    : buffer_(buffer),
-      map_{},
-      isMapped_(gst_buffer_map(buffer, &map_, GST_MAP_READ) != FALSE),
-      frame_(check(info)) {}
+    : buffer_(buffer), frame_(check(info)) {}
 
 MappedFrame::~MappedFrame() {
-  if (isMapped_) gst_buffer_unmap(buffer_, &map_);
+  for (size_t i = 0; i < mapCount_; ++i) gst_buffer_unmap(buffer_, &maps_[i]);
 }
 
-Result<Frame> MappedFrame::check(const GstVideoInfo& info) const {
-  if (!isMapped_) return Error{"the buffer's memory can't be mapped for reading"};
+/// Maps the memories from one on; false where they can't be.
+bool MappedFrame::map(guint first, int count) {
+  const bool isMapped =
+      gst_buffer_map_range(buffer_, first, count, &maps_[mapCount_], GST_MAP_READ) != FALSE;
+  if (isMapped) ++mapCount_;
+  return isMapped;
+}
+
+/// What may be read from a plane's first byte on. Cameras and decoders give each plane a memory of
+/// its own, which is mapped alone: to map them as one would copy them.
+Result<PlaneMemory> MappedFrame::find(uint64_t offset, int64_t strideBytes, Size bytes) {
+  const Error unreadable{"the buffer's memory can't be mapped for reading"};
+  const Error endsEarly{"a plane starts or ends behind the end of the buffer, which has " +
+                        std::to_string(gst_buffer_get_size(buffer_)) + " bytes"};
+  if (gst_buffer_n_memory(buffer_) <= 1) {
+    if (mapCount_ == 0 && !map(0, -1)) return unreadable;
+    if (offset >= maps_[0].size) return endsEarly;
+    return PlaneMemory{maps_[0].data + offset, maps_[0].size - offset, strideBytes};
+  }
+  const auto rows = static_cast<uint64_t>(bytes.height - 1);
+  const auto stride = static_cast<uint64_t>(std::max<int64_t>(strideBytes, 0));
+  const uint64_t need = rows * stride + static_cast<uint64_t>(bytes.width);
+  guint first = 0, count = 0;
+  gsize skip = 0;
+  if (offset > gst_buffer_get_size(buffer_) ||
+      !gst_buffer_find_memory(buffer_, offset, need, &first, &count, &skip))
+    return endsEarly;
+  if (!map(first, static_cast<int>(count))) return unreadable;
+  const GstMapInfo& mapped = maps_[mapCount_ - 1];
+  return PlaneMemory{mapped.data + skip, mapped.size - skip, strideBytes};
+}
+
+Result<Frame> MappedFrame::check(const GstVideoInfo& info) {
   const auto layout = layoutOf(info);
   if (!layout) return Error{"the caps' format is not supported"};
   const GstVideoMeta* meta = gst_buffer_get_video_meta(buffer_);
@@ -88,12 +132,11 @@ Result<Frame> MappedFrame::check(const GstVideoInfo& info) const {
                  " planes, the caps say otherwise"};
   std::array<PlaneMemory, Frame::kMaxPlanes> planes;
   for (size_t i = 0; i < count; ++i) {
-    const gsize offset = meta ? meta->offset[i] : info.offset[i];
-    if (offset >= map_.size)
-      return Error{"plane " + std::to_string(i) +
-                   " starts behind the end of the buffer, which has " + std::to_string(map_.size) +
-                   " bytes"};
-    planes[i] = {map_.data + offset, map_.size - offset, meta ? meta->stride[i] : info.stride[i]};
+    const auto plane =
+        find(meta ? meta->offset[i] : info.offset[i], meta ? meta->stride[i] : info.stride[i],
+             planeBytes(layout->format, layout->size, static_cast<int>(i)));
+    if (!plane) return plane.error();
+    planes[i] = *plane;
   }
   return Frame::make(*layout, std::span(planes).first(count));
 }

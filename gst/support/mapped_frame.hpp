@@ -7,6 +7,7 @@
 
 #include <gst/video/video.h>
 
+#include <array>
 #include <optional>
 
 namespace rg {
@@ -26,12 +27,14 @@ class MappedFrame {
   [[nodiscard]] const Result<Frame>& frame() const { return frame_; }
 
  private:
-  [[nodiscard]] Result<Frame> check(const GstVideoInfo& info) const;
+  [[nodiscard]] Result<Frame> check(const GstVideoInfo& info);
+  [[nodiscard]] Result<PlaneMemory> find(uint64_t offset, int64_t strideBytes, Size bytes);
+  [[nodiscard]] bool map(guint first, int count);
 
   GstBuffer* buffer_;
-  GstMapInfo map_;
-  bool isMapped_;
-  Result<Frame> frame_;
+  std::array<GstMapInfo, Frame::kMaxPlanes> maps_;
+  size_t mapCount_ = 0;
+  Result<Frame> frame_;  ///< Made last: it needs the maps.
 };
 
 }  // namespace rg

@@ -2,7 +2,7 @@
 #include "gst/support/mask_painter.hpp"
 
 #include "core/base/mapping.hpp"
-#include "gst/meta/result_meta.hpp"
+#include "gst/support/shown_result.hpp"
 
 #include <cstring>
 #include <vector>
@@ -77,7 +77,8 @@ void paintObjects(const objects::Objects& objects, GstVideoFrame* to) {
 
 template <class Payload, class Paint>
 bool paintResult(GstBuffer* from, GstVideoFrame* to, Paint paintOne) {
-  const auto result = findResult<Payload>(from);
+  const auto result =
+      findShown<Payload>(from, {GST_VIDEO_FRAME_WIDTH(to), GST_VIDEO_FRAME_HEIGHT(to)});
   if (result && result->status != Status::Skipped)
     paintOne(*result, to);
   else

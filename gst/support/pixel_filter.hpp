@@ -11,6 +11,7 @@
 
 #include <memory>
 #include <mutex>
+#include <utility>
 
 namespace rg {
 
@@ -46,6 +47,7 @@ class PixelFilter : public StageOwner<Settings, Stage> {
 
   bool start() override {
     analysisHeight_ = this->currentSettings().analysisHeight;
+    hasToldInterlaced_ = false;
     return StageOwner<Settings, Stage>::start();
   }
   /// Pictures may have a copy on the device that goes now.
@@ -70,6 +72,11 @@ class PixelFilter : public StageOwner<Settings, Stage> {
       ++this->settings_.badBuffers;
       return mapped.frame().error();
     }
+    if (mapped.frame()->layout().isInterlaced && !std::exchange(hasToldInterlaced_, true))
+      this->postWarning(
+          "The video is interlaced: of each frame only the lines of the field with the top line "
+          "are looked at, so that what moves is no comb. Put deinterlace in front of this element "
+          "for all lines.");
     auto picture = pool_.take();
     const Size size = this->analysedSize(frame);
     if (size == mapped.frame()->size()) {
@@ -82,7 +89,8 @@ class PixelFilter : public StageOwner<Settings, Stage> {
   }
 
  private:
-  int analysisHeight_ = 0;  ///< As at the start.
+  int analysisHeight_ = 0;          ///< As at the start.
+  bool hasToldInterlaced_ = false;  ///< Since the start.
   ReducedFrame reduced_;
   Pool<Picture> pool_;
 };

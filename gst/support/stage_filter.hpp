@@ -9,6 +9,7 @@
 #include "core/base/stage.hpp"
 #include "core/objects/objects.hpp"
 #include "gst/meta/result_meta.hpp"
+#include "gst/support/backend.hpp"
 #include "gst/support/filter.hpp"
 #include "gst/support/lost_results.hpp"
 #include "gst/support/stage_stats.hpp"
@@ -122,6 +123,8 @@ class StageFilter : public Filter {
   void warnOnce(const std::string& text) {
     if (!std::exchange(hasWarned_, true)) postWarning(text);
   }
+  /// Of a frame that there is no result of.
+  void countSkipped() { ++skippedFrames_; }
   void forgetWarnings() { hasWarned_ = false; }
   /// Frames since this was asked that skipped() was asked for.
   [[nodiscard]] guint64 takeSkipped() { return std::exchange(skippedFrames_, 0); }
@@ -148,13 +151,19 @@ class StageOwner : public StageFilter {
     (void)this->takeSkipped();
     progress_.restart();
     forgetStats();
+    if (!openDevice()) return false;
     const Context context = makeContext(currentSettings().threads, device_);
     executor_ = context.cpu;
     stage_ = makeStage_(context);
     return true;
   }
-  void stop() override { stage_.reset(); }
+  void stop() override {
+    stage_.reset();
+    device_.reset();
+    tellBackend({});
+  }
   void finish(const FilterFrame& frame, GstClockTime took) override {
+    followDevice();
     StageStats stats;
     {
       const std::lock_guard lock(settingsMutex());
@@ -178,13 +187,47 @@ class StageOwner : public StageFilter {
   [[nodiscard]] Settings currentSettings() { return snapshot(settings_); }
   [[nodiscard]] Stage& stage() { return *stage_; }
   [[nodiscard]] const Executor& executor() const { return *executor_; }
-  /// For the stage that start() makes.
-  void use(std::shared_ptr<Device> device) { device_ = std::move(device); }
-  [[nodiscard]] const Device* device() const { return device_.get(); }
+  /// Whether what the settings ask for has kernels.
+  [[nodiscard]] virtual bool hasKernels(const Settings&) const { return true; }
+  /// What the end of a device has cost, for the warning.
+  [[nodiscard]] virtual const char* lossOfDevice() const { return " where it was."; }
 
   Settings settings_;
 
  private:
+  bool openDevice() {
+    if constexpr (kHasBackend<Settings>) {
+      const Settings settings = currentSettings();
+      auto device = openBackend(GST_ELEMENT(element()), settings);
+      if (!device) {
+        postError("backend=cuda: " + device.error().message +
+                  ". With backend=auto the CPU does it");
+        return false;
+      }
+      device_ = *std::move(device);
+      hasToldFailure_ = false;
+      tellBackend(nameOfBackend(settings));
+    }
+    return true;
+  }
+  [[nodiscard]] std::string nameOfBackend(const Settings& settings) const {
+    return device_ && device_->isUp() && hasKernels(settings) ? "cuda: " + device_->name() : "cpu";
+  }
+  void tellBackend(std::string name) {
+    if constexpr (kHasBackend<Settings>) {
+      const std::lock_guard lock(settingsMutex());
+      settings_.activeBackend = std::move(name);
+    }
+  }
+  void followDevice() {
+    if (!device_) return;
+    tellBackend(nameOfBackend(currentSettings()));
+    const DeviceError* error = device_->error();
+    if (error == nullptr || std::exchange(hasToldFailure_, true)) return;
+    postWarning("The CUDA device failed: " + std::string(error->what()) + ". The CPU goes on" +
+                (error->isLost() ? lossOfDevice() : " where it was."));
+  }
+
   void forgetStats() {
     const std::lock_guard lock(settingsMutex());
     settings_.stats = {};
@@ -194,6 +237,7 @@ class StageOwner : public StageFilter {
   const Factory makeStage_;
   std::shared_ptr<const Executor> executor_;
   std::shared_ptr<Device> device_;  ///< None: the CPU.
+  bool hasToldFailure_ = false;
   std::unique_ptr<Stage> stage_;
 };
 
