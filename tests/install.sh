@@ -27,7 +27,7 @@ export GST_PLUGIN_PATH=$libraries/gstreamer-1.0 GST_REGISTRY=$target/registry.bi
 export LD_LIBRARY_PATH=$libraries PKG_CONFIG_PATH=$libraries/pkgconfig
 
 for element in bgremove hsvsegment srg prmmotion mrfmerge regionoverlay regionmask regiontext \
-  regionwrite regiontrack; do
+  regionwrite regiontrack haardetect; do
   gst-inspect-1.0 "$element" >"$target/$element" || { echo "install: no $element" >&2; exit 1; }
 done
 
@@ -42,4 +42,4 @@ if [[ $(option introspection) != disabled ]]; then
   grep -q '^object' "$target/boxes" || { echo 'install: Python found nothing' >&2; exit 1; }
   test -s "$target/labels.npy" && test -s "$target/mask.pgm"
 fi
-echo "install: 10 elements, an application that read $(wc -l <"$target/objects") objects"
+echo "install: 11 elements, an application that read $(wc -l <"$target/objects") objects"

@@ -5,10 +5,10 @@
 usage: layers.py [ROOT]      (default: the repository that this file is in)
 
 Arrows only point left: core <- kernels <- gst <- examples; tests may see all. Inside core too:
-base <- background <- segmentation <- graph <- motion <- objects <- text, and of another room only
-its contract is included (core/motion/motion.hpp), but all of base; kernels take arithmetic from
-all of core. No element includes another one, except regiontrack, which is made of them, and plugin,
-which registers them. No two types of core have one qualified name.
+base <- background <- segmentation <- graph <- motion <- objects <- detection <- text, and of
+another room only its contract is included (core/motion/motion.hpp), but all of base; kernels take
+arithmetic from all of core. No element includes another one, except regiontrack, which is made of
+them, and plugin, which registers them. No two types of core have one qualified name.
 Prints one line per finding and exits 1 when there is any.
 """
 import collections
@@ -18,13 +18,14 @@ import subprocess
 import sys
 
 LAYERS = ('core', 'kernels', 'gst', 'examples')
-ROOMS = ('base', 'background', 'segmentation', 'graph', 'motion', 'objects', 'text')
+ROOMS = ('base', 'background', 'segmentation', 'graph', 'motion', 'objects', 'detection',
+         'text')
 FOREIGN = {  # Outside libraries that a layer must not include.
     'core': r'(glib|gio|gst|gobject|opencv|cuda|cub|thrust)',
     'kernels': r'(glib|gio|gst|gobject|opencv)',
 }
-ELEMENTS = ('bgremove', 'hsvsegment', 'srg', 'prmmotion', 'mrfmerge', 'regionoverlay', 'regionmask',
-            'regiontext', 'regionwrite', 'regiontrack')
+ELEMENTS = ('bgremove', 'hsvsegment', 'srg', 'prmmotion', 'mrfmerge', 'haardetect', 'regionoverlay',
+            'regionmask', 'regiontext', 'regionwrite', 'regiontrack')
 SEES_ELEMENTS = ('regiontrack', 'plugin')
 MAX_FILE_LINES, MAX_FUNCTION_LINES, MAX_COLUMNS = 400, 50, 100
 MAX_FOLDER_FILES = 25  # Of core.

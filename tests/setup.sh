@@ -8,12 +8,12 @@ packages=(
   # build
   g++ clang meson ninja-build pkg-config git
   libgstreamer1.0-dev libgstreamer-plugins-base1.0-dev libglib2.0-dev
-  libopencv-dev libpango1.0-dev libhwy-dev libtbb-dev libpng-dev
+  libopencv-dev opencv-data libpango1.0-dev libhwy-dev libtbb-dev libpng-dev
   gobject-introspection libgirepository1.0-dev
   # checks and tests
   clang-format clang-tidy libclang-rt-dev libgtest-dev libgmock-dev nlohmann-json3-dev
   binutils debootstrap locales valgrind libc6-dbg
-  python3 python3-numpy python3-opencv python3-scipy python3-jsonschema
+  python3 python3-numpy python3-opencv python3-scipy python3-jsonschema python3-matplotlib
   python3-gi gir1.2-gstreamer-1.0 gir1.2-gst-plugins-base-1.0 gir1.2-gst-rtsp-server-1.0
   # running pipelines
   gstreamer1.0-tools gstreamer1.0-plugins-base gstreamer1.0-plugins-good gstreamer1.0-plugins-bad

@@ -51,7 +51,8 @@ def figures_of_peer(runner, name, peer):
 
 
 def figures_of_method(options, name, method):
-    runner = run.Runner(argparse.Namespace(**{**vars(options), 'method': method}))
+    runner = run.Runner(argparse.Namespace(**{**vars(options), 'method': method,
+                                                 'literal': False}))
     with tempfile.TemporaryDirectory() as folder:
         return runner.masks(name, folder)
 
@@ -86,7 +87,7 @@ def main():
     if not options.data.is_dir() or not options.score.is_file():
         print('masks.py: skipped, no data here')
         sys.exit(77)
-    runner = run.Runner(argparse.Namespace(**{**vars(options), 'method': ''}))
+    runner = run.Runner(argparse.Namespace(**{**vars(options), 'method': '', 'literal': False}))
     sets = [name for name, kind in runner.sets()
             if kind == 'masks' and (not options.sets or name in options.sets)]
     if not sets:

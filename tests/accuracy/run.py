@@ -2,13 +2,15 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Runs the elements on data with ground truth, has a referee score them and prints a table.
 
-usage: run.py DATA SCORE.PY [--gate] [--method paper] [--build FOLDER] [--jobs N] [SET...]
+usage: run.py DATA SCORE.PY [--gate] [--method paper | --literal] [--build FOLDER] [--jobs N]
+              [SET...]
 
 DATA     folder of the sets; a SET is named by its path below it (default: all that have a truth)
 SCORE.PY the referee: "score.py masks SET DIR", "tracks SET FILE", "flow SET FILE LABELS" print a
          dict of figures, and its source(SET) names a GStreamer source of the frames in order
 --gate   only the sets that GATES names; exits 1 when a figure misses its gate
 --method of bgremove (default: the element's own)
+--literal  every stage as the paper says; of masks those of the objects count
 """
 import argparse
 import ast
@@ -49,6 +51,9 @@ PAPER_GATES = {  # Of method=paper: what regions save of the errors of a mask.
     'wallflower/WavingTrees': [('TE_left', AT_MOST, 0.75)],
     'wallflower/ForegroundAperture': [('TE_left', AT_MOST, 0.75)],
 }
+LATER_STAGES = 'hsvsegment ! srg ! prmmotion ! mrfmerge'
+LITERAL_STAGES = ('hsvsegment colour-space=hsv ! srg ! prmmotion method=literal ! '
+                  'mrfmerge method=literal')
 SHOWN = {'masks': ('F', 'precision', 'recall', 'TE', 'TE8'),
          'objects': ('F', 'precision', 'recall', 'TE', 'TE_saved', 'TE_left', 'TE8', 'TE8_saved'),
          'tracks': ('MOTA', 'IDF1', 'HOTA', 'MOTA_mot15', 'IDF1_mot15', 'FP', 'FN', 'IDSW'),
@@ -60,7 +65,10 @@ class Runner:
         self.data = options.data.resolve()
         self.referee = options.score.resolve()
         self.build = options.build.resolve()
-        self.method = f'method={options.method}' if options.method else ''
+        self.is_literal = options.literal
+        method = 'paper' if options.literal else options.method
+        self.method = f'method={method}' if method else ''
+        self.stages = LITERAL_STAGES if options.literal else LATER_STAGES
         spec = importlib.util.spec_from_file_location('referee', self.referee)
         self.module = importlib.util.module_from_spec(spec)
         spec.loader.exec_module(self.module)
@@ -75,7 +83,7 @@ class Runner:
             if kind:
                 name = path.relative_to(self.data).as_posix()
                 yield name, kind
-                if name in OBJECT_GATES:
+                if name in OBJECT_GATES and not self.is_literal:
                     yield name, 'objects'
 
     def launch(self, line):
@@ -92,8 +100,10 @@ class Runner:
         return ast.literal_eval(done.stdout.strip().splitlines()[-1])
 
     def masks(self, name, folder):
+        shown = (f'{self.stages} ! regionmask source=objects' if self.is_literal else
+                 'regionmask source=foreground')
         self.launch(f'{self.module.source(str(self.data / name))} ! videoconvert ! '
-                    f'bgremove {self.method} ! regionmask source=foreground ! '
+                    f'bgremove {self.method} ! {shown} ! '
                     f'pngenc compression-level=1 ! multifilesink location={folder}/%06d.png')
         return self.score('masks', name, folder)
 
@@ -106,7 +116,7 @@ class Runner:
         self.launch(f'{self.module.source(str(self.data / name))} ! videoconvert ! '
                     f'bgremove {self.method} ! tee name=fork ! queue ! '
                     f'regionmask source=foreground ! {to_files.format(before)} '
-                    'fork. ! queue ! hsvsegment ! srg ! prmmotion ! mrfmerge ! '
+                    f'fork. ! queue ! {self.stages} ! '
                     f'regionmask source=objects ! {to_files.format(ours)}')
         figures, mask = (self.score('masks', name, str(place)) for place in (ours, before))
         for key in ('TE', 'TE8'):
@@ -118,7 +128,7 @@ class Runner:
 
     def tracks(self, name, folder):
         self.launch(f'{self.module.source(str(self.data / name))} ! videoconvert ! '
-                    f'bgremove {self.method} ! hsvsegment ! srg ! prmmotion ! mrfmerge ! '
+                    f'bgremove {self.method} ! {self.stages} ! '
                     f'regionwrite format=mot location={folder}/tracks.txt ! fakesink sync=false')
         return self.score('tracks', name, f'{folder}/tracks.txt')
 
@@ -128,7 +138,7 @@ class Runner:
             link = pathlib.Path(folder, f'in{index}.png')
             link.symlink_to(self.data / name / f'frame{number}.png')
         self.launch(f'multifilesrc location={folder}/in%d.png caps=image/png,framerate=25/1 ! '
-                    'pngdec ! videoconvert ! hsvsegment ! srg ! prmmotion ! mrfmerge ! '
+                    f'pngdec ! videoconvert ! {self.stages} ! '
                     f'regionwrite format=regions location={folder}/regions.csv ! '
                     'regionmask source=labels ! video/x-raw,format=GRAY16_BE ! '
                     f'pngenc ! multifilesink location={folder}/labels%d.png')
@@ -139,7 +149,13 @@ class Runner:
             return getattr(self, kind)(name, folder)
 
 
+def way_of(options):
+    return 'literal' if options.literal else options.method
+
+
 def gates_of(name, kind, method):
+    if method == 'literal':
+        return []
     if method == 'paper':
         table = PAPER_GATES if kind == 'objects' else {}
     else:
@@ -164,7 +180,9 @@ def parse():
     parser.add_argument('score', type=pathlib.Path)
     parser.add_argument('sets', nargs='*')
     parser.add_argument('--gate', action='store_true')
-    parser.add_argument('--method')
+    way = parser.add_mutually_exclusive_group()
+    way.add_argument('--method')
+    way.add_argument('--literal', action='store_true')
     parser.add_argument('--build', type=pathlib.Path, default=ROOT / 'build')
     parser.add_argument('--jobs', type=int, default=2)
     return parser.parse_args()
@@ -174,13 +192,13 @@ def main():
     options = parse()
     runner = Runner(options)
     chosen = [(name, kind) for name, kind in runner.sets()
-              if (not options.gate or gates_of(name, kind, options.method))
+              if (not options.gate or gates_of(name, kind, way_of(options)))
               and (not options.sets or name in options.sets)]
     if not chosen:
         sys.exit('run.py: none of these sets is there')
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         futures = [pool.submit(runner.run, name, kind) for name, kind in chosen]
-        rows = [row(*task, options.method, future.result())
+        rows = [row(*task, way_of(options), future.result())
                 for task, future in zip(chosen, futures)]
     print('\n'.join(['| set | figures | gate |', '|---|---|---|'] + [text for text, _ in rows]))
     sys.exit(1 if options.gate and any(missed for _, missed in rows) else 0)

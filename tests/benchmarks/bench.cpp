@@ -34,6 +34,11 @@ class Pipeline {
     segmentationParams_.similarity = options.similarity;
     graphParams_.connectivity = static_cast<Connectivity>(options.connectivity);
     motionParams_.maxShiftPx = options.shiftPx;
+    if (!options.isLiteral) return;
+    backgroundParams_.method = background::Method::Paper;
+    segmentationParams_.space = segmentation::ColourSpace::Hsv;
+    motionParams_.method = motion::Method::Literal;
+    objectParams_.method = objects::Method::Literal;
   }
 
   void process(const RawFrame& raw, Timings& timings) {
@@ -42,7 +47,7 @@ class Pipeline {
     const FrameTime time{frames_++ * 40'000'000, true};
     timings.measure(kLoadRow, [&] { picture->load(frame, *context_.cpu); });
     auto foreground = timings.measure(kBackgroundRow, [&] {
-      return valueOf(background_->process(picture, background::Params{}, time));
+      return valueOf(background_->process(picture, backgroundParams_, time));
     });
     if (segmentationParams_.scope == segmentation::Scope::Frame) foreground.reset();
     const auto labels = timings.measure(kStages[0], [&] {
@@ -53,7 +58,7 @@ class Pipeline {
     const auto motion = timings.measure(
         kStages[2], [&] { return valueOf(motion_->process(graph, motionParams_)); });
     const auto objects = timings.measure(
-        kStages[3], [&] { return valueOf(objects_->process(motion, objects::Params{}, time)); });
+        kStages[3], [&] { return valueOf(objects_->process(motion, objectParams_, time)); });
     note(*motion, *objects);
   }
 
@@ -83,9 +88,11 @@ class Pipeline {
   std::unique_ptr<graph::Stage> graph_;
   std::unique_ptr<motion::Stage> motion_;
   std::unique_ptr<objects::Stage> objects_;
+  background::Params backgroundParams_;
   segmentation::Params segmentationParams_;
   graph::Params graphParams_;
   motion::Params motionParams_;
+  objects::Params objectParams_;
   int64_t frames_ = 0;
   Notes notes_;
 };

@@ -63,6 +63,7 @@ bool Options::*flagOf(std::string_view name) {
   if (name == "--worst") return &Options::asksWorst;
   if (name == "--extreme") return &Options::asksExtreme;
   if (name == "--cpu") return &Options::asksCpu;
+  if (name == "--literal") return &Options::isLiteral;
   if (name == "--help" || name == "-h") return &Options::asksHelp;
   return nullptr;
 }
@@ -132,7 +133,7 @@ std::string usage(const std::string& program) {
          " [--input FILE | --size WxH | --table] [--scene NAME] [--worst] [--cpu]\n"
          "       [--scope frame | foreground] [--regions N] [--min-area N] [--similarity N]\n"
          "       [--connectivity 4 | 8] [--shift R] [--extreme] [--threads T] [--frames N]\n"
-         "       [--warm-up N]\n"
+         "       [--warm-up N] [--literal]\n"
          "  --input    frames to measure on: .y4m, or what OpenCV reads (default: a scene)\n"
          "  --size     of the scene (default 640x480)\n"
          "  --table    all sizes and numbers of regions that the paper has times of\n"
@@ -149,6 +150,7 @@ std::string usage(const std::string& program) {
          "  --scope    foreground: only what bgremove leaves is segmented (default: frame)\n"
          "  --regions  in the synthetic scene, and at most in the segmentation (default 160)\n"
          "  --min-area least pixels of a region (default 0: by the frame's size)\n"
+         "  --literal  bgremove, prmmotion and mrfmerge as the paper says them, regions by HSV\n"
          "  --shift    largest motion searched, in pixels (default 20)\n"
          "  --similarity    largest step between neighbours in a region (default 2)\n"
          "  --connectivity  of the graph (default 4)\n"

@@ -89,6 +89,14 @@ class Bench(unittest.TestCase):
         self.assertEqual((status, errors), (0, ''))
         self.sums(lines)
 
+    @unittest.skipUnless('total_ms' in SUMS, 'of bench only')
+    def test_times_the_papers_own_system(self):
+        status, lines, errors = bench('--size', '96x64', '--regions', '20', '--shift', '4',
+                                      '--literal', *QUICK, *SYNTHETIC)
+        self.assertEqual((status, errors), (0, ''))
+        self.assertIn('0.00 % of the cells took the shortcut', lines[2])
+        self.check_sums(lines)
+
     def test_reads_a_file_from_its_start_again(self):
         with tempfile.TemporaryDirectory() as folder:
             clip = y4m(folder, 'YUV4MPEG2 W16 H8 F25:1 C420jpeg', bytes(range(192)))

@@ -26,7 +26,8 @@ CLIP = (f'gst-launch-1.0 -q videotestsrc pattern=ball num-buffers={FRAMES} ! vid
 # What the README's three dots stand for.
 SOURCE = 'gst-launch-1.0 filesrc location=clip.avi ! decodebin ! videoconvert'
 # Commands that build from source, or that packages make needless.
-OF_THE_SOURCE = re.compile(r'(\./examples/demo\.sh|\./tests/|meson |ninja |sudo |build/)')
+OF_THE_SOURCE = re.compile(
+    r'(\./examples/demo\.sh|\./examples/paper/|\./tests/|meson |ninja |sudo |build/)')
 PRESENT = ('tracked', 'stopped', 'occluded')
 IN_CPP = re.compile(r'^frame (\d+)  object (\d+)  (\w+)  (\d+)x(\d+) at (-?\d+),(-?\d+)', re.M)
 BY_RULE = re.compile(r'^frame (\d+)  object (\d+)  (\d+)x(\d+) at (\d+),(\d+)$', re.M)

@@ -71,6 +71,7 @@ class BodyScene {
   objects::Stage& stage() { return *stage_; }
   void wait(int64_t ns) { time_.ns += ns; }
   void forgetTime() { time_.isKnown = false; }
+  objects::Params params;  ///< Of the frames to come.
 
  private:
   static void paint(const Body& body, uint16_t label, Image<uint16_t>& ids,
@@ -86,7 +87,7 @@ class BodyScene {
       }
   }
   std::shared_ptr<const objects::Objects> process(std::shared_ptr<const motion::Motion> motion) {
-    auto result = stage_->process(std::move(motion), {}, time_);
+    auto result = stage_->process(std::move(motion), params, time_);
     EXPECT_TRUE(result);
     time_.ns += kStepNs;
     return *result;

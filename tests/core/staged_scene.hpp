@@ -33,6 +33,7 @@ struct Take {
   int gainPercent = 100;
   Point push;           ///< Pixels that the camera has moved; the walker moves with the scene.
   bool isGrey = false;  ///< No colour, as a camera's picture by infra-red light.
+  int fogPercent = 0;   ///< Of the scene's light that fog takes and replaces by its own.
 };
 
 class StagedScene {
@@ -91,7 +92,9 @@ class StagedScene {
     for (size_t c = 0; c < colour.size(); ++c) {
       const auto off = static_cast<int>((take.isGrey ? grain : grain >> 8 * c) & 0xFF);
       const int noise = off * (2 * scene_.noise + 1) / 256 - scene_.noise;
-      colour[c] = std::clamp(colour[c] * take.gainPercent / 100 + noise, 0, 255);
+      constexpr int kFog = 200;  // Grey level.
+      const int lit = colour[c] * take.gainPercent / 100;
+      colour[c] = std::clamp(lit + (kFog - lit) * take.fogPercent / 100 + noise, 0, 255);
     }
     return {static_cast<uint8_t>(colour[0]), static_cast<uint8_t>(colour[1]),
             static_cast<uint8_t>(colour[2])};

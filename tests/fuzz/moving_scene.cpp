@@ -70,14 +70,12 @@ testing::BufferPtr paintScene(const MovingScene& scene, const GstVideoInfo& info
   if (!gst_video_frame_map(&frame, &info, buffer.get(), GST_MAP_WRITE)) std::abort();
   const int width = GST_VIDEO_INFO_WIDTH(&info), height = GST_VIDEO_INFO_HEIGHT(&info);
   for (guint c = 0; c < GST_VIDEO_INFO_N_COMPONENTS(&info); ++c) {
-    auto* rows = static_cast<uint8_t*>(GST_VIDEO_FRAME_COMP_DATA(&frame, c));
-    const int columnStep = GST_VIDEO_FRAME_COMP_PSTRIDE(&frame, c);
     const int across = std::max(1, width / GST_VIDEO_FRAME_COMP_WIDTH(&frame, c));
     const int down = std::max(1, height / GST_VIDEO_FRAME_COMP_HEIGHT(&frame, c));
     for (int y = 0; y < GST_VIDEO_FRAME_COMP_HEIGHT(&frame, c); ++y)
       for (int x = 0; x < GST_VIDEO_FRAME_COMP_WIDTH(&frame, c); ++x)
-        rows[y * GST_VIDEO_FRAME_COMP_STRIDE(&frame, c) + x * columnStep] =
-            scene.levelAt(x * across, y * down, static_cast<int>(c), width, height);
+        testing::putSample(frame, c, x, y,
+                           scene.levelAt(x * across, y * down, static_cast<int>(c), width, height));
   }
   gst_video_frame_unmap(&frame);
   return buffer;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Objects as GstAnalytics knows them; built where GStreamer has it.
+#include "gst/support/class_metas.hpp"
 #include "gst/support/roi_metas.hpp"
 #include "tests/support/harness.hpp"
 #include "tests/support/results.hpp"
@@ -107,6 +108,40 @@ TEST(Detections, NameTheParentThatIsOnTheFrame) {
       tell(metas, 0, {testing::object(5, {1, 1, 4, 4}), testing::object(7, {5, 6, 20, 10}), child});
   EXPECT_EQ(told.at(9).parent, told.at(7).roi);
   EXPECT_EQ(told.at(5).parent, 0);
+}
+
+TEST(Detections, ContainTheirClass) {
+  RoiMetas metas;
+  const BufferPtr buffer = frameAt(0);
+  metas.add(buffer.get(), kCaps.info(),
+            *testing::objects(
+                kSize, {testing::object(7, {5, 6, 20, 10}), testing::object(8, {40, 20, 20, 20})}));
+  detection::Detections found;
+  found.found = {{{38, 18, 24, 24}, 4}};
+  EXPECT_EQ(addClasses(buffer.get(), kCaps.info(), found, {"walker", "model"}, Unmatched::Dropped),
+            1u);
+  GstAnalyticsRelationMeta* meta = gst_buffer_get_analytics_relation_meta(buffer.get());
+  ASSERT_TRUE(meta);
+  gpointer state = nullptr;
+  GstAnalyticsODMtd detection;
+  int classes = 0;
+  while (gst_analytics_relation_meta_iterate(meta, &state, gst_analytics_od_mtd_get_mtd_type(),
+                                             &detection)) {
+    GstAnalyticsClsMtd classification;
+    gpointer related = nullptr;
+    if (!gst_analytics_relation_meta_get_direct_related(
+            meta, detection.id, GST_ANALYTICS_REL_TYPE_CONTAIN,
+            gst_analytics_cls_mtd_get_mtd_type(), &related, &classification))
+      continue;
+    ++classes;
+    EXPECT_STREQ(g_quark_to_string(gst_analytics_cls_mtd_get_quark(&classification, 0)), "walker");
+    Box box;
+    float confidence = 0;
+    gst_analytics_od_mtd_get_location(&detection, &box.x, &box.y, &box.width, &box.height,
+                                      &confidence);
+    EXPECT_EQ(box, (Box{40, 20, 20, 20}));
+  }
+  EXPECT_EQ(classes, 1);
 }
 
 }  // namespace

@@ -69,10 +69,11 @@ TEST(LostResults, AreToldWithTheElementThatLostThem) {
   EXPECT_NE(verdictOf("regiontrack ! videoflip name=flip video-direction=vert ! regiontext")
                 .find("lost after mrfmerge, at flip,"),
             std::string::npos);
-  EXPECT_NE(verdictOf("bgremove name=b ! queue ! videocrop name=crop left=10 ! identity ! "
+  EXPECT_NE(verdictOf("bgremove name=b ! queue ! videobox name=box left=10 ! identity ! "
                       "regionmask source=foreground")
-                .find("results of bgremove were lost after b, at crop,"),
+                .find("results of bgremove were lost after b, at box,"),
             std::string::npos);
+  EXPECT_EQ(verdictOf("bgremove ! queue ! videocrop left=10 ! identity ! regionmask"), "end");
   EXPECT_NE(verdictOf("hsvsegment ! srg name=s ! videocrop name=one left=2 ! videoflip name=two "
                       "video-direction=vert ! prmmotion")
                 .find("lost after s, at one or two,"),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Changes of state in any order, during a push, and after a start that failed; many instances.
 #include "tests/support/busy_scene.hpp"
+#include "tests/support/cascade_files.hpp"
 
 #include <gtest/gtest.h>
 
@@ -66,13 +67,17 @@ void expectFreshStory(Chain& chain, const std::string& line) {
 /// Each change between two of the four states, for each element alone.
 TEST(States, EveryElementMakesEveryChange) {
   constexpr int kOrder[] = {1, 0, 2, 0, 3, 1, 2, 1, 3, 2, 3, 0};
-  for (const char* name : {"bgremove", "hsvsegment", "srg", "prmmotion", "mrfmerge", "regionmask",
-                           "regiontext", "regionwrite", "regiontrack", "regionoverlay"}) {
+  const testing::CascadeFile cascade;
+  for (const char* name :
+       {"bgremove", "hsvsegment", "srg", "prmmotion", "mrfmerge", "haardetect", "regionmask",
+        "regiontext", "regionwrite", "regiontrack", "regionoverlay"}) {
     SCOPED_TRACE(name);
     GstElement* element = gst_element_factory_make(name, nullptr);
     if (!element && std::string(name) == "regionoverlay") continue;
     ASSERT_TRUE(element);
     gst_object_ref_sink(element);
+    if (std::string(name) == "haardetect")
+      g_object_set(element, "cascade", cascade.path().c_str(), nullptr);
     if (std::string(name) == "regionwrite") g_object_set(element, "location", "/dev/null", nullptr);
     for (int round = 0; round < 3; ++round)
       for (const int state : kOrder)

@@ -10,6 +10,7 @@ import importlib.util
 import json
 import os
 import pathlib
+import re
 import shutil
 import signal
 import subprocess
@@ -19,7 +20,7 @@ import unittest
 
 EXAMPLES = pathlib.Path(sys.argv[1])
 ELEMENTS = ('bgremove', 'hsvsegment', 'srg', 'prmmotion', 'mrfmerge', 'regionmask', 'regiontext',
-            'regiontrack', 'regionwrite', 'regionoverlay')
+            'regiontrack', 'regionwrite', 'regionoverlay', 'haardetect')
 BALL = ('videotestsrc pattern=ball num-buffers={} ! video/x-raw,format=I420,framerate=30/1 ! '
         'regiontrack ! regionwrite format=graph ! fakesink')
 PORT = 18557
@@ -120,7 +121,8 @@ class FirstRun(unittest.TestCase):
 
     def test_copied_examples_run_with_the_installed_elements(self):
         examples, clip = self.copied(), self.clip()
-        for script in ('file.sh', 'moving_camera.sh'):
+        for script in ('file.sh', 'moving_camera.sh', 'paper/literal.sh',
+                       'paper/literal.sh --moving'):
             done = shell(f'{examples}/{script} {clip}', self.folder)
             self.assertEqual(done.returncode, 0, done.stderr)
             lines = [json.loads(line) for line in done.stdout.splitlines()]
@@ -135,6 +137,20 @@ class FirstRun(unittest.TestCase):
         self.assertNotIn(b'error', (done.stdout + done.stderr).lower())
         for name in ('annotated.mp4', 'still.png', 'objects.jsonl'):
             self.assertGreater((self.folder / 'demo-output' / name).stat().st_size, 0)
+
+    def test_gst_inspect_tells_a_script_that_they_exist(self):
+        def exists(version):
+            return shell(f'gst-inspect-1.0 --exists --atleast-version={version} bgremove',
+                         self.folder).returncode == 0
+        readme = (EXAMPLES.parent / 'README.md').read_text(encoding='utf-8')
+        documented = re.search(r'--atleast-version=([0-9.]+)', readme)[1]
+        self.assertTrue(exists(documented))
+        self.assertFalse(exists('99.0'))
+
+    def test_a_copied_report_says_that_it_needs_the_source(self):
+        done = shell(f'{self.copied()}/paper/reproduce.sh --quick', self.folder)
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn(b'run this in the source tree', done.stderr)
 
     def test_copied_examples_say_that_the_elements_are_missing(self):
         environment = {**os.environ, 'GST_PLUGIN_PATH': '', 'GST_REGISTRY': f'{self.folder}/none'}

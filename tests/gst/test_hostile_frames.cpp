@@ -191,8 +191,10 @@ TEST(HostileCaps, NoMasksAreMadeOfTooLargeFrames) {
 }
 
 TEST(HostileCaps, OtherFormatsAreRefused) {
-  Chain chain("bgremove", Caps{"UYVY", 64, 48});
-  EXPECT_EQ(chain.push(allocate(64 * 48 * 2)), GST_FLOW_NOT_NEGOTIATED);
+  for (const char* format : {"AYUV", "I420_10BE", "Y42B, interlace-mode=alternate", "GRAY16_LE"}) {
+    Chain chain("bgremove", Caps{format, 64, 48});
+    EXPECT_EQ(chain.push(allocate(64 * 48 * 4)), GST_FLOW_NOT_NEGOTIATED) << format;
+  }
 }
 
 }  // namespace

@@ -12,9 +12,9 @@
 
 namespace {
 
-constexpr const char* kElements[] = {"bgremove",   "hsvsegment",  "srg",
-                                     "prmmotion",  "mrfmerge",    "regionmask",
-                                     "regiontext", "regionwrite", "regiontrack"};
+constexpr const char* kElements[] = {"bgremove",    "hsvsegment", "srg",        "prmmotion",
+                                     "mrfmerge",    "haardetect", "regionmask", "regiontext",
+                                     "regionwrite", "regiontrack"};
 
 long threads() {
   const std::filesystem::directory_iterator tasks("/proc/self/task");

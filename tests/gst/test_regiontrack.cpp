@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <string_view>
+
 namespace rg {
 namespace {
 
@@ -114,7 +116,10 @@ TEST(RegionTrack, HasTheChildrensPropertiesUnderTheirOwnNames) {
         continue;
       const GParamSpec* own = g_object_class_find_property(G_OBJECT_GET_CLASS(bin), specs[i]->name);
       ASSERT_TRUE(own) << specs[i]->name;
-      EXPECT_EQ(own->value_type, specs[i]->value_type);
+      // Three children choose a method, each of its own kind: the bin's is the first one's.
+      const bool isFirst = std::string_view(name) == "bgremove";
+      const bool isOther = std::string_view(specs[i]->name) == "method" && !isFirst;
+      EXPECT_EQ(own->value_type != specs[i]->value_type, isOther) << specs[i]->name;
     }
     g_free(specs);
     g_object_unref(child);

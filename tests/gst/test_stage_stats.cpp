@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -26,8 +27,8 @@ struct Stats {
   double meanMs = -1, worstMs = -1;
 };
 
-Stats statsOf(const Chain& chain, const char* factory) {
-  GstElement* element = chain.element(factory);
+/// Gives the element back.
+Stats statsOf(GstElement* element) {
   GstStructure* structure = nullptr;
   g_object_get(element, "stats", &structure, nullptr);
   gst_object_unref(element);
@@ -37,6 +38,10 @@ Stats statsOf(const Chain& chain, const char* factory) {
                                 &stats.meanMs, "ms-worst", G_TYPE_DOUBLE, &stats.worstMs, nullptr));
   gst_structure_free(structure);
   return stats;
+}
+
+Stats statsOf(const Chain& chain, const char* factory) {
+  return statsOf(chain.element(factory));
 }
 
 TEST(StageStats, CountFramesTimesAndDrops) {
@@ -59,6 +64,31 @@ TEST(StageStats, CountFramesTimesAndDrops) {
   gst_element_set_state(chain.harness()->element, GST_STATE_NULL);
   gst_element_set_state(chain.harness()->element, GST_STATE_PLAYING);
   for (const char* stage : kStages) EXPECT_EQ(statsOf(chain, stage).frames, 0u);
+}
+
+TEST(StageStats, OfRegiontrackAreTheSumOfItsStages) {
+  Chain chain("regiontrack training-frames=2", kSmall);
+  EXPECT_EQ(statsOf(chain, "regiontrack").frames, 0u);
+  EXPECT_EQ(statsOf(chain, "regiontrack").meanMs, 0);
+  for (int i = 0; i < 10; ++i) {
+    BufferPtr frame = busyFrame(kSmall, i);
+    if (i == 6) GST_BUFFER_FLAG_SET(frame.get(), GST_BUFFER_FLAG_GAP);
+    EXPECT_TRUE(chain.pass(std::move(frame)));
+  }
+  Stats sum{0, 0, 0, 0};
+  GstElement* bin = chain.element("regiontrack");
+  for (const char* stage : kStages) {
+    const Stats stats = statsOf(gst_bin_get_by_name(GST_BIN(bin), stage));
+    sum = {stats.frames, std::max(sum.dropped, stats.dropped), sum.meanMs + stats.meanMs,
+           sum.worstMs + stats.worstMs};
+  }
+  const Stats all = statsOf(bin);
+  EXPECT_EQ(all.frames, 10u);
+  EXPECT_EQ(all.dropped, sum.dropped);
+  EXPECT_GE(all.dropped, 1u);
+  EXPECT_GT(all.meanMs, 0);
+  EXPECT_EQ(all.meanMs, sum.meanMs);
+  EXPECT_EQ(all.worstMs, sum.worstMs);
 }
 
 /// The lines at level DEBUG of the stages' categories.

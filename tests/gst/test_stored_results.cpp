@@ -107,6 +107,28 @@ TEST(StoredResults, ThatContradictEachOtherAreNotJoined) {
   EXPECT_FALSE(join(objects, std::make_shared<motion::Motion>(motion)));
 }
 
+/// Where gdppay and gdpdepay carry no metas at all, as those of GStreamer 1.22, they lose
+/// GStreamer's own, too.
+TYPED_TEST(StoredResult, GoesThroughGdpWhereThatTakesMetas) {
+  GstElementFactory* factory = gst_element_factory_find("gdppay");
+  if (!factory) GTEST_SKIP() << "no gdppay";
+  gst_object_unref(factory);
+  const Caps caps{"I420", 64, 48};
+  BufferPtr from = busyBuffer(caps);
+  const auto before = findResult<TypeParam>(from.get());
+  GstCaps* reference = gst_caps_new_empty_simple("timestamp/x-unix");
+  gst_buffer_add_reference_timestamp_meta(from.get(), reference, 7, GST_CLOCK_TIME_NONE);
+  gst_caps_unref(reference);
+  Chain chain("gdppay ! gdpdepay", caps);
+  const BufferPtr to = chain.pass(std::move(from));
+  ASSERT_TRUE(to);
+  if (!gst_buffer_get_reference_timestamp_meta(to.get(), nullptr))
+    GTEST_SKIP() << "this gdppay carries no metas";
+  const auto after = findResult<TypeParam>(to.get());
+  ASSERT_TRUE(after);
+  EXPECT_EQ(store(*after), store(*before));
+}
+
 #if GST_CHECK_VERSION(1, 24, 0)
 /// Sends the metas of a buffer as unixfdsink does.
 BufferPtr sent(GstBuffer* from) {

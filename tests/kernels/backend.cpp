@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Whole stages with a device, which is the host here (kernels/shim): the same results, whichever of
 // its calls fails.
-#include "kernels/backend/open_device.hpp"
-#include "kernels/shim/block.hpp"
-#include "kernels/shim/faults.hpp"
 #include "tests/core/staged_scene.hpp"
+#include "tests/kernels/host_device.hpp"
 
 #include <gtest/gtest.h>
 
@@ -17,14 +15,6 @@ namespace {
 
 using background::Foreground;
 using background::SceneEvent;
-
-std::shared_ptr<Device> openHost() {
-  gpu::shim::begin({});
-  gpu::shim::plan(std::nullopt);
-  auto device = gpu::openDevice(0);
-  EXPECT_TRUE(device);
-  return *std::move(device);
-}
 
 void expectSame(const Foreground& a, const Foreground& b, int frame) {
   SCOPED_TRACE("frame " + std::to_string(frame));

@@ -2,7 +2,8 @@
 // What a frame costs at least, from what each launch declares: bytes over a device's bandwidth,
 // integer operations over its rate, and a launch's own time. Modelled, never measured.
 //
-// usage: kernel-model [WIDTH HEIGHT]
+// usage: kernel-model [WIDTH HEIGHT [REGIONS [SHIFT]]]     (default: 160 regions, shifts of up to
+// 20)
 #include "core/background/background.hpp"
 #include "core/motion/shift_search.hpp"
 #include "kernels/kernels.hpp"
@@ -151,35 +152,49 @@ void launchGraph(const Memory& m) {
                          nullptr);
 }
 
-/// 160 regions that are matched with as many pixels as are enough, by shifts of up to 20.
-void launchSearch(const Memory& m) {
-  constexpr motion::ShiftRange kRange{20, 21};
-  constexpr int kRegions = 160;
-  const int reach = kRange.reach + 1;
+/// Regions that are matched, and by shifts of up to how many pixels.
+struct Search {
+  int regions = 160, shiftPx = 20;
+};
+
+/// The regions are matched with as many pixels as are enough.
+void launchSearch(const Memory& m, const Search& search) {
+  const motion::ShiftRange range{search.shiftPx, search.shiftPx + 1};
+  const int reach = range.reach + 1;
   const Size padded{m.size.width + 2 * reach + motion::PaddedLuma::kSlack,
                     m.size.height + 2 * reach};
   const gpu::motion::PaddedView luma{m.size, reach, plane<uint8_t>(padded)};
   const gpu::motion::BoxesView boxes{plane<uint16_t>(padded)};
-  const gpu::motion::MatchedRegions regions{nullptr, nullptr, kRegions};
+  const gpu::motion::MatchedRegions regions{nullptr, nullptr, search.regions};
   gpu::motion::findStill(regions, m.planes.planes[0], m.planes.planes[0], nullptr, nullptr);
   gpu::motion::sumGradients(regions, m.planes.planes[0], nullptr, nullptr);
   gpu::motion::padLuma(m.planes.planes[0], luma, nullptr);
   gpu::motion::sumBoxes(luma, boxes, nullptr);
-  gpu::motion::searchShifts(regions, {m.planes.planes[0], luma, boxes}, kRange,
-                            {nullptr, nullptr, kRegions}, nullptr, nullptr);
+  gpu::motion::searchShifts(regions, {m.planes.planes[0], luma, boxes}, range,
+                            {nullptr, nullptr, search.regions}, nullptr, nullptr);
   gpu::motion::estimateMotion(regions, nullptr, nullptr, nullptr, nullptr);
 }
 
 /// A frame's way through what there is of the pipeline: method hybrid, segmentation, graph, the
 /// search for motion.
-void launchFrame(Size size) {
+/// Returns of each stage how many launches there were by its end.
+std::vector<size_t> launchFrame(Size size, const Search& search) {
   const Memory m{size};
+  std::vector<size_t> ends;
+  const auto mark = [&] { ends.push_back(gpu::shim::launches().size()); };
   loadFrame(size);
+  mark();
   launchBackground(m);
+  mark();
   launchSegmentation(m);
+  mark();
   launchGraph(m);
-  launchSearch(m);
+  mark();
+  launchSearch(m, search);
+  mark();
+  return ends;
 }
+constexpr const char* kStages[] = {"load", "bgremove", "hsvsegment", "srg", "prmmotion"};
 
 /// Fewer blocks than multiprocessors have no more than their share of bandwidth and rate.
 double microseconds(const gpu::Launch& launch, const Device& device) {
@@ -233,16 +248,34 @@ void print(Size size) {
                 launches);
 }
 
+void printStages(const std::vector<size_t>& ends) {
+  size_t first = 0;
+  for (size_t i = 0; i < ends.size(); ++i) {
+    double us[2] = {};
+    for (size_t k = first; k < ends[i]; ++k)
+      for (int d = 0; d < 2; ++d) us[d] += microseconds(gpu::shim::launches()[k], kDevices[d]);
+    std::printf("stage %s: %.2f us of work on an H200, %.2f on an H100, %zu launches\n", kStages[i],
+                us[0], us[1], ends[i] - first);
+    first = ends[i];
+  }
+}
+
 }  // namespace
 }  // namespace rg
 
 int main(int count, char** arguments) {
   std::vector<rg::Size> sizes{{640, 480}, {1920, 1080}, {3840, 2160}};
+  rg::Search search;
   if (count > 2) sizes = {{std::atoi(arguments[1]), std::atoi(arguments[2])}};
+  if (count > 3) search.regions = std::atoi(arguments[3]);
+  if (count > 4) search.shiftPx = std::atoi(arguments[4]);
+  if (search.regions < 1 || search.shiftPx < 1 || search.shiftPx >= rg::motion::kMostReach - 1)
+    return 1;
   for (const rg::Size size : sizes) {
     if (size.isEmpty()) return 1;
     rg::gpu::shim::begin({rg::gpu::shim::Order::Natural, 1, rg::gpu::shim::Mode::Record});
-    rg::launchFrame(size);
+    const auto ends = rg::launchFrame(size, search);
     rg::print(size);
+    rg::printStages(ends);
   }
 }

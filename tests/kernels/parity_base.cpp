@@ -49,8 +49,11 @@ void parity_loadPlanes() {
   forSizesAndFills([](Size size, int fill) {
     for (const PixelFormat format :
          {PixelFormat::Bgrx, PixelFormat::Rgba, PixelFormat::Bgr, PixelFormat::Rgb,
-          PixelFormat::Nv12, PixelFormat::I420, PixelFormat::Gray8})
-      checkLoading({format, size}, fill);
+          PixelFormat::Gbr, PixelFormat::Nv12, PixelFormat::Nv21, PixelFormat::I420,
+          PixelFormat::Y42b, PixelFormat::Yuy2, PixelFormat::Uyvy, PixelFormat::I420Ten,
+          PixelFormat::P010, PixelFormat::Gray8})
+      for (const bool isInterlaced : {false, true})
+        checkLoading({format, size, YuvMatrix::Bt601, YuvRange::Limited, isInterlaced}, fill);
     for (const YuvMatrix matrix : {YuvMatrix::Bt709, YuvMatrix::Bt2020, YuvMatrix::Fcc})
       checkLoading({PixelFormat::Nv12, size, matrix, YuvRange::Full}, fill);
   });

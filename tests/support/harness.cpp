@@ -56,19 +56,33 @@ std::string Chain::complaint(GstMessageType type) {
   return text;
 }
 
+void putSample(GstVideoFrame& frame, guint component, int x, int y, uint8_t value, guint rest) {
+  const GstVideoFormatInfo* format = frame.info.finfo;
+  auto* at = firstSample(frame, component) + y * GST_VIDEO_FRAME_COMP_STRIDE(&frame, component) +
+             x * GST_VIDEO_FRAME_COMP_PSTRIDE(&frame, component);
+  const guint depth = GST_VIDEO_FORMAT_INFO_DEPTH(format, component);
+  if (depth == 8) {
+    *at = value;
+  } else {
+    const guint word = (guint{value} << (depth - 8) | rest)
+                       << GST_VIDEO_FORMAT_INFO_SHIFT(format, component);
+    at[0] = static_cast<uint8_t>(word);
+    at[1] = static_cast<uint8_t>(word >> 8);
+  }
+}
+
 BufferPtr paint(const Caps& caps, int index, const Painter& painter) {
   const GstVideoInfo info = caps.info();
   BufferPtr buffer(gst_buffer_new_allocate(nullptr, info.size, nullptr));
   gst_buffer_memset(buffer.get(), 0, 128, info.size);
   GstVideoFrame frame;
   gst_video_frame_map(&frame, &info, buffer.get(), GST_MAP_WRITE);
-  const bool isPacked = GST_VIDEO_INFO_IS_RGB(&info);
-  const int step = isPacked ? GST_VIDEO_FRAME_COMP_PSTRIDE(&frame, 0) : 1;
-  auto* rows = static_cast<uint8_t*>(GST_VIDEO_FRAME_PLANE_DATA(&frame, 0));
-  for (int y = 0; y < caps.height; ++y)
-    for (int x = 0; x < caps.width; ++x)
-      std::memset(rows + y * GST_VIDEO_FRAME_PLANE_STRIDE(&frame, 0) + x * step, painter(x, y),
-                  static_cast<size_t>(step));
+  for (guint i = 0; i < GST_VIDEO_FRAME_N_COMPONENTS(&frame); ++i) {
+    const bool isPainted = GST_VIDEO_INFO_IS_RGB(&info) || i == 0;
+    for (int y = 0; y < GST_VIDEO_FRAME_COMP_HEIGHT(&frame, i); ++y)
+      for (int x = 0; x < GST_VIDEO_FRAME_COMP_WIDTH(&frame, i); ++x)
+        putSample(frame, i, x, y, isPainted ? painter(x, y) : uint8_t{128});
+  }
   gst_video_frame_unmap(&frame);
   GST_BUFFER_PTS(buffer.get()) = static_cast<GstClockTime>(index) * 40 * GST_MSECOND;
   GST_BUFFER_DURATION(buffer.get()) = 40 * GST_MSECOND;
@@ -94,6 +108,7 @@ void registerElements() {
   GST_ELEMENT_REGISTER(srg, nullptr);
   GST_ELEMENT_REGISTER(prmmotion, nullptr);
   GST_ELEMENT_REGISTER(mrfmerge, nullptr);
+  GST_ELEMENT_REGISTER(haardetect, nullptr);
   GST_ELEMENT_REGISTER(regionmask, nullptr);
   GST_ELEMENT_REGISTER(regiontext, nullptr);
   GST_ELEMENT_REGISTER(regiontrack, nullptr);

@@ -25,8 +25,9 @@ using BufferPtr = std::unique_ptr<GstBuffer, Free>;
 using MessagePtr = std::unique_ptr<GstMessage, Free>;
 using BusPtr = std::unique_ptr<GstBus, Free>;
 
-inline constexpr const char* kAllFormats[] = {"BGRx", "RGBx", "BGRA", "RGBA", "BGR",
-                                              "RGB",  "NV12", "I420", "GRAY8"};
+inline constexpr const char* kAllFormats[] = {
+    "BGRx",  "RGBx", "BGRA", "RGBA", "BGR",  "RGB", "NV12",      "I420",
+    "GRAY8", "NV21", "YUY2", "UYVY", "Y42B", "GBR", "I420_10LE", "P010_10LE"};
 
 struct Caps {
   const char* format = "BGRx";
@@ -81,6 +82,19 @@ using Painter = std::function<uint8_t(int x, int y)>;
 
 /// A frame of one brightness per pixel (chroma neutral) and a PTS of `index` frames at 25 Hz.
 [[nodiscard]] BufferPtr paint(const Caps& caps, int index, const Painter& painter);
+
+/// The first sample of a component. Words lie at even bytes: GStreamer 1.22 says 1 for the Cr of
+/// P010.
+[[nodiscard]] inline uint8_t* firstSample(const GstVideoFrame& frame, guint component) {
+  const bool isWord = GST_VIDEO_FORMAT_INFO_DEPTH(frame.info.finfo, component) > 8;
+  const guint offset = GST_VIDEO_FORMAT_INFO_POFFSET(frame.info.finfo, component);
+  return static_cast<uint8_t*>(
+             frame.data[GST_VIDEO_FORMAT_INFO_PLANE(frame.info.finfo, component)]) +
+         (isWord ? (offset + 1) / 2 * 2 : offset);
+}
+
+/// Writes a sample of 8 bits, or the upper 8 of a word's ten and the rest of these.
+void putSample(GstVideoFrame& frame, guint component, int x, int y, uint8_t value, guint rest = 0);
 
 /// A flat background with a bright square whose left upper corner is at (x, y).
 [[nodiscard]] Painter square(int x, int y, int side);

@@ -57,6 +57,29 @@ TEST_P(SceneChanges, AStoppedPersonStaysForAbsorbTimeThenFadesAndLeavesNoGhost) 
   EXPECT_LT(marks.falsePercent, 0.1);
 }
 
+/// From the first frame on: a thing differs as little as all else does, so that grey levels alone
+/// don't tell how little is noise.
+TEST(WeakContrast, AWalkerIsFoundInFogAndAtNight) {
+  for (const Texture texture : {Texture::Tiles, Texture::Stone, Texture::Ramp, Texture::Stripes})
+    for (const Take& weather : {Take{{}, 100, {}, false, 70}, Take{{}, 25, {}, false, 0}}) {
+      SCOPED_TRACE(weather.fogPercent > 0 ? "fog" : "night");
+      StagedScene scene({texture, 1, 5});
+      scene.showFor(25, weather);
+      int found = 0;
+      double wrong = 0;
+      constexpr int kSteps = 50;
+      for (int i = 0; i < kSteps; ++i) {
+        Take take = weather;
+        take.walker = walkerAt(i);
+        const auto marks = marksOf(*scene.show(take), take.walker);
+        found += marks.foundPercent;
+        wrong += marks.falsePercent;
+      }
+      EXPECT_GE(found, 85 * kSteps) << "texture " << static_cast<int>(texture);
+      EXPECT_LT(wrong, 0.1 * kSteps) << "texture " << static_cast<int>(texture);
+    }
+}
+
 Box seenFrom(const Point& push, const Box& box) {
   return {box.x - push.x, box.y - push.y, box.width, box.height};
 }
@@ -80,8 +103,9 @@ TEST_P(SceneChanges, AShakenCameraDoesNotFloodTheMask) {
     followed += seen == push;
   }
   EXPECT_TRUE(GetParam().texture > Texture::Stone || followed >= 40);
-  // A ramp looks the same from everywhere.
-  EXPECT_EQ(told, GetParam().texture == Texture::Ramp ? 0 : 1);
+  // A ramp looks nearly the same from everywhere.
+  EXPECT_LE(told, 1);
+  EXPECT_TRUE(GetParam().texture == Texture::Ramp || told == 1);
 }
 
 TEST_P(SceneChanges, ACameraThatWasTurnedStartsAnew) {

@@ -5,6 +5,8 @@
 #include "tests/core/row_fills.hpp"
 
 #include <array>
+#include <tuple>
+#include <utility>
 
 namespace rg {
 namespace {
@@ -77,6 +79,38 @@ TEST(SimdRows, PackedPixelsAreLoadedAsByThePlainOne) {
     plain::loadPackedRow(pixels.data(), width, order, expected.to());
     simd::loadPackedRow(pixels.data(), width, order, out.to());
     expectSamePlanes(out, expected, width);
+  });
+}
+
+TEST(SimdRows, PlanesOfColourAreLoadedAsByThePlainOne) {
+  forAll([](const Fill& fill, int width) {
+    std::array<std::vector<uint8_t>, 3> colours;
+    for (int i = 0; i < width; ++i)
+      for (int k = 0; k < 3; ++k) colours[static_cast<size_t>(k)].push_back(fill(i, k));
+    const auto [red, green, blue] =
+        std::tuple{colours[0].data(), colours[1].data(), colours[2].data()};
+    Planes expected, out;
+    plain::loadPlanarRow(red, green, blue, width, expected.to());
+    simd::loadPlanarRow(red, green, blue, width, out.to());
+    expectSamePlanes(out, expected, width);
+  });
+}
+
+TEST(SimdRows, GatheringIsThePlainOne) {
+  forAll([](const Fill& fill, int width) {
+    for (const auto& [step, hasTenBits] : {std::pair{2, false}, {4, false}, {2, true}})
+      for (int offset = 0; offset < (hasTenBits ? 1 : step); ++offset) {
+        std::vector<uint8_t> row;  // Ends with the last sample.
+        const int end = offset + step * (width - 1) + (hasTenBits ? 2 : 1);
+        for (int i = 0; i < end; ++i) row.push_back(fill(i, 0));
+        const SpacedRow from{row.data() + offset, step, hasTenBits};
+        Image<uint8_t> expected = filled(1, [](int, int) { return kGuard; });
+        Image<uint8_t> out = filled(1, [](int, int) { return kGuard; });
+        plain::gatherRow(from, width, expected.row(0));
+        simd::gatherRow(from, width, out.row(0));
+        expectSame(out, expected, width);
+        expectGuarded(out, expected, width);
+      }
   });
 }
 
