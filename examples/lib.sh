@@ -30,6 +30,20 @@ build_elements() {
   ninja -C "$build"
 }
 
+# The same with the benchmarks and what else the report on the paper runs.
+build_tools() {
+  "$root/tests/setup.sh"
+  if [[ ! -f $build/build.ninja ]]; then
+    meson setup "$build" "$root" --buildtype=release -Dtests=enabled -Dbenchmarks=enabled \
+      -Dcuda=disabled -Dintrospection=disabled
+  fi
+  local targets=(gst/plugin/libgstregiongraph.so gst/overlay/libgstregiongraphoverlay.so
+    tests/benchmarks/bench{,-areas} tests/kernels/kernel-model)
+  [[ ! -f $root/tests/benchmarks/search_windows.cpp ]] ||
+    targets+=(tests/benchmarks/search-windows)
+  ninja -C "$build" "${targets[@]}"
+}
+
 # Runs a command where the elements are found without being installed, in the caller's folder.
 in_build() {
   if is_source; then
