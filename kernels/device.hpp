@@ -36,7 +36,7 @@ __device__ inline unsigned loadQuadAnywhere(const uint8_t* bytes) {
 inline constexpr int kWarp = 32;
 inline constexpr unsigned kFullWarp = 0xFFFFFFFFu;
 
-/// Errors that the tests of the tests put into kernels; they exist in builds with RG_MUTANTS only.
+/// Errors that the tests of the tests put into kernels; they exist on the host only.
 enum class Mutant {
   None,
   MissingBarrier,
@@ -46,7 +46,7 @@ enum class Mutant {
   LostAtomic,
 };
 
-#if defined(RG_MUTANTS) && !defined(__CUDACC__)
+#ifndef __CUDACC__
 inline Mutant activeMutant = Mutant::None;
 [[nodiscard]] inline bool isMutated(Mutant mutant) {
   return activeMutant == mutant;

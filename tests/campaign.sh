@@ -17,6 +17,7 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 fuzz_build=$(realpath -m "${FUZZ_BUILD:-$root/build-fuzz}")
 tsan_build=$(realpath -m "${TSAN_BUILD:-$root/build-tsan}")
 build=$(realpath -m "${BUILD_DIR:-$root/build}")
+cache=$(command -v ccache || true)
 targets=(chain lines metas objects text)
 corpora=corpus  # The folder of what the fuzzers reach.
 most_kept=100  # Inputs of a target in tests/fuzz/corpus.
@@ -43,8 +44,8 @@ export G_SLICE=always-malloc G_DEBUG=gc-friendly ORC_CODE=backup GST_PLUGIN_PATH
 
 configure_fuzzers() {
   [[ -f $fuzz_build/build.ninja ]] ||
-    CC=clang CXX=clang++ meson setup "$fuzz_build" "$root" -Dwerror=true -Dcuda=disabled \
-      -Dfuzz=true -Db_lundef=false -Db_sanitize=address,undefined -Doptimization=1 \
+    CC="$cache clang" CXX="$cache clang++" meson setup "$fuzz_build" "$root" -Dwerror=true \
+      -Dcuda=disabled -Dfuzz=true -Db_lundef=false -Db_sanitize=address,undefined -Doptimization=1 \
       -Dcpp_args='-fsanitize=fuzzer-no-link -D_GLIBCXX_ASSERTIONS' \
       >/dev/null
 }
@@ -94,8 +95,8 @@ run_fuzz() {
 
 run_threads() {
   [[ -f $tsan_build/build.ninja ]] ||
-    CXX=g++ meson setup "$tsan_build" "$root" -Dwerror=true -Dcuda=disabled \
-      -Db_sanitize=thread -Doptimization=1 -Db_lundef=false >/dev/null
+    CC="$cache gcc" CXX="$cache g++" meson setup "$tsan_build" "$root" -Dwerror=true \
+      -Dcuda=disabled -Db_sanitize=thread -Doptimization=1 -Db_lundef=false >/dev/null
   ninja -C "$tsan_build" tests/stress/stress >/dev/null
   local stress=("$tsan_build/tests/stress/stress")
   export TSAN_OPTIONS=halt_on_error=1:history_size=4:second_deadlock_stack=1
