@@ -13,28 +13,29 @@
 namespace rg::truth {
 namespace {
 
-/// Smooth noise of −1 … 1 with features of about `period` pixels.
-float valueNoise(int x, int y, int period, uint32_t seed) {
+/// Smooth noise of −1 … 1 with features of about `period`.
+float valueNoise(double x, double y, int period, uint32_t seed) {
   const auto corner = [&](int cx, int cy) {
     const uint32_t hash = mixHash(static_cast<uint32_t>(cx), static_cast<uint32_t>(cy), seed);
     return static_cast<float>(hash % 2001) / 1000.0f - 1.0f;
   };
-  const int cx = x / period, cy = y / period;
-  const auto ease = [&](int v) {
-    const float t = static_cast<float>(v % period) / static_cast<float>(period);
+  const int cx = static_cast<int>(x / period), cy = static_cast<int>(y / period);
+  const auto ease = [&](double v) {
+    const float t = static_cast<float>(v) / static_cast<float>(period);
     return t * t * (3 - 2 * t);
   };
-  const float u = ease(x), v = ease(y);
+  const float u = ease(x - cx * period), v = ease(y - cy * period);
   const float top = corner(cx, cy) * (1 - u) + corner(cx + 1, cy) * u;
   const float low = corner(cx, cy + 1) * (1 - u) + corner(cx + 1, cy + 1) * u;
   return top * (1 - v) + low * v;
 }
 
-/// Rough at all scales, as ground and walls are.
-float roughness(int x, int y, uint32_t seed) {
+/// Rough at all scales, as ground and walls are; what is finer than two pixels is not seen.
+float roughness(double x, double y, double pixel, uint32_t seed) {
   float sum = 0, weight = 16;
   for (const int period : {97, 41, 17, 7, 3}) {
-    sum += weight * valueNoise(x, y, period, seed + static_cast<uint32_t>(period));
+    if (period >= 2 * pixel)
+      sum += weight * valueNoise(x, y, period, seed + static_cast<uint32_t>(period));
     weight *= 0.7f;
   }
   return sum;
@@ -47,8 +48,10 @@ struct Patch {
 
 class Yard final : public CanvasSource {
  public:
-  Yard(uint32_t seed, Size size) : canvas_{size, {}} {
+  Yard(uint32_t seed, Size shown, double scale) : canvas_{shown, {}} {
     Dice dice(seed, 1);
+    const Size size{static_cast<int>(std::lround(shown.width / scale)),
+                    static_cast<int>(std::lround(shown.height / scale))};
     const int horizon = size.height * dice.whole(20, 35) / 100;
     const auto tint = [&](double spread) {
       const auto part = [&] { return static_cast<float>(dice.real(-spread, spread)); };
@@ -62,14 +65,15 @@ class Yard final : public CanvasSource {
       const int y = isWindow ? dice.whole(0, horizon) : dice.whole(horizon, size.height);
       patches.push_back({{dice.whole(0, size.width), y, width, height}, tint(45)});
     }
-    canvas_.pixels.reserve(static_cast<size_t>(size.area()));
-    for (int y = 0; y < size.height; ++y)
-      for (int x = 0; x < size.width; ++x) {
+    canvas_.pixels.reserve(static_cast<size_t>(shown.area()));
+    for (int row = 0; row < shown.height; ++row)
+      for (int column = 0; column < shown.width; ++column) {
+        const double x = column / scale, y = row / scale;
         Rgb colour = y < horizon ? wall : ground;
         for (const Patch& patch : patches)
-          if (patch.box.contains({x, y}))
+          if (patch.box.contains({static_cast<int>(x), static_cast<int>(y)}))
             for (size_t c = 0; c < 3; ++c) colour[c] += patch.tint[c];
-        const float shade = (y < horizon ? 135.0f : 110.0f) + roughness(x, y, seed);
+        const float shade = (y < horizon ? 135.0f : 110.0f) + roughness(x, y, 1 / scale, seed);
         for (float& part : colour) part = std::clamp(part + shade, 8.0f, 247.0f);
         canvas_.pixels.push_back(colour);
       }
@@ -130,8 +134,8 @@ Rgb Canvas::sample(double x, double y) const {
   return result;
 }
 
-std::unique_ptr<CanvasSource> makeYard(uint32_t seed, Size size) {
-  return std::make_unique<Yard>(seed, size);
+std::unique_ptr<CanvasSource> makeYard(uint32_t seed, Size size, double scale) {
+  return std::make_unique<Yard>(seed, size, scale);
 }
 
 Result<std::unique_ptr<CanvasSource>> openClip(const std::string& path, Size size) {

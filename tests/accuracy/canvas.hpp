@@ -35,8 +35,8 @@ class CanvasSource {
   virtual const Canvas& next() = 0;
 };
 
-/// The same picture for every frame.
-[[nodiscard]] std::unique_ptr<CanvasSource> makeYard(uint32_t seed, Size size);
+/// The same picture for every frame. Scale: of the size, by that for which the yard is laid out.
+[[nodiscard]] std::unique_ptr<CanvasSource> makeYard(uint32_t seed, Size size, double scale = 1);
 
 /// Frames of a .y4m file, scaled to `size`, over and over again.
 [[nodiscard]] Result<std::unique_ptr<CanvasSource>> openClip(const std::string& path, Size size);

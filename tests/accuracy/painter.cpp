@@ -72,6 +72,10 @@ bool Painter::next(bench::RawFrame& frame, Scene& scene) {
   return true;
 }
 
+void Painter::skip(int frames) {
+  for (; frames > 0; --frames, ++frame_) source_->next();
+}
+
 void Painter::paintGround(const Canvas& canvas, const Waypoint& view, const Box& box) {
   const Box inside = intersect(box, boundsOf(plan_.frame));
   for (int y = inside.y; y < inside.bottom(); ++y)
@@ -122,7 +126,7 @@ void Painter::paintActor(size_t index, const Waypoint& view, Scene& scene) {
   fact.isInside = fact.box.x >= 0 && fact.box.y >= 0 &&
                   fact.box.x + fact.box.width <= plan_.frame.width &&
                   fact.box.y + fact.box.height <= plan_.frame.height;
-  fact.isSteady = actor.isSteady(frame_, 25);
+  fact.isSteady = actor.isSteady(frame_, plan_.fps);
   scene.facts.push_back(fact);
 }
 

@@ -37,6 +37,8 @@ class Painter {
 
   /// Paints the next frame; false when the plan is over.
   bool next(bench::RawFrame& frame, Scene& scene);
+  /// Leaves frames out.
+  void skip(int frames);
   [[nodiscard]] const Plan& plan() const { return plan_; }
   /// Of each pixel of the last frame the actor that is seen, −1 = the ground.
   [[nodiscard]] const std::vector<int>& top() const { return top_; }

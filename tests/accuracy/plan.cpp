@@ -26,7 +26,8 @@ struct Cast {
 
 class StillPlanner {
  public:
-  StillPlanner(uint32_t seed, Size frame) : dice_(seed, 2), plan_{frame, frame, 0, 4, {}, {}, {}} {
+  StillPlanner(uint32_t seed, Size frame)
+      : dice_(seed, 2), plan_{frame, frame, 1, 0, kSecond, 4, {}, {}, {}} {
     plan_.camera = {{0, 0, 0}, {1e9, 0, 0}};
   }
 
@@ -86,7 +87,8 @@ class StillPlanner {
   Sprite sprite() {
     const auto shape = static_cast<Shape>(dice_.whole(0, kShapes - 1));
     const int percent = shape == Shape::Person ? dice_.whole(14, 24) : dice_.whole(9, 17);
-    return makeSprite(shape, std::max(8, plan_.frame.height * percent / 100), colour(), dice_);
+    return makeSprite(
+        drawModel(shape, std::max(8, plan_.frame.height * percent / 100), colour(), dice_));
   }
 
   double lane(const Sprite& s) { return dice_.real(s.body.height + 10.0, height() - 6); }
@@ -292,7 +294,8 @@ Plan planPan(uint32_t seed, Size frame) {
                      static_cast<float>(dice.whole(10, 245)),
                      static_cast<float>(dice.flip() ? dice.whole(10, 40) : dice.whole(210, 245))};
     const auto shape = static_cast<Shape>(dice.whole(0, kShapes - 1));
-    Actor actor{makeSprite(shape, frame.height * dice.whole(12, 20) / 100, colour, dice), {}, i};
+    const int height = frame.height * dice.whole(12, 20) / 100;
+    Actor actor{makeSprite(drawModel(shape, height, colour, dice)), {}, i};
     const double lane = roomY / 2 + frame.height * (i + 1.0) / (count + 1) +
                         actor.sprite.body.height / 2.0 + dice.real(-5, 5);
     const double left = roomX / 2 + frame.width * 0.25, right = roomX / 2 + frame.width * 0.75;

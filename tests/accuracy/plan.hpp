@@ -31,13 +31,17 @@ struct Actor {
 
 struct Plan {
   Size frame, canvas;
+  double scale = 1;  ///< Pixels by those of the plan as it was drawn.
   int frames = 0;
+  double fps = 25;
   double noise = 4;
   std::vector<Actor> actors;
   std::vector<Box> pillars;      ///< Parts of the canvas that hide what has its feet above theirs.
   std::vector<Waypoint> camera;  ///< Of the frame's upper left corner on the canvas.
 };
 
+/// Plans are drawn for 25 frames a second (sampling.hpp).
+///
 /// A camera that stands still: 1 to 13 actors, of whom some stop for 10 s, some are hidden for 1 s,
 /// some cross others, also of their own colour, and some walk together for a while.
 [[nodiscard]] Plan planStill(uint32_t seed, Size frame);

@@ -5,9 +5,12 @@
 #include "core/objects/objects.hpp"
 #include "core/text/names.hpp"
 #include "tests/accuracy/painter.hpp"
+#include "tests/accuracy/sampling.hpp"
 #include "tests/accuracy/verdict.hpp"
+#include "tests/support/digest.hpp"
 #include "tests/support/value_of.hpp"
 
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -20,27 +23,36 @@ namespace {
 struct Options {
   bool isPan = false;
   bool explains = false;
+  bool isDigest = false;
   uint32_t firstSeed = 1, lastSeed = 20;
   int least = 0;  ///< Scenes without a fault.
-  Size size{640, 480};
+  Sampling sampling;
   std::string background;  ///< A .y4m file; empty: a yard that follows from the seed.
   std::string pictures;    ///< A folder for frames with the boxes of truth and report.
   int every = 25;          ///< Of these, one in so many frames.
 };
 
 constexpr char kUsage[] =
-    "usage: scenes [--pan] [--gate N] [--explain] [--seeds FIRST:LAST] [--size WxH]\n"
-    "              [--background FILE.y4m] [--pictures FOLDER] [--every N]\n"
+    "usage: scenes [--pan] [--gate N] [--seeds FIRST:LAST] [--size WxH] [--fps F] [--noise S]\n"
+    "              [--explain] [--digest] [--background FILE.y4m] [--pictures FOLDER] [--every N]\n"
     "  --pan         the camera moves and bgremove is left out (default: it stands still)\n"
     "  --gate        exit 1 when fewer than N scenes are without a fault\n"
+    "  --seeds       which scenes (default: 1:20)\n"
+    "  --size        of the frames (default: 640x480); a seed is the same scene at every size of\n"
+    "                one shape, and at every rate\n"
+    "  --fps         frames a second, 1 to 1000 (default: 25)\n"
+    "  --noise       standard deviation of each pixel, in grey levels (default: 4)\n"
     "  --explain     tell which number each actor had when\n"
+    "  --digest      only tell of each seed a number that follows from frames and truth\n"
     "  --background  what the scene is painted on (default: a yard that follows from the seed)\n"
-    "  --pictures    write frames there: the truth's boxes white, the reported ones coloured\n";
+    "  --pictures    write frames there: the truth's boxes white, the reported ones coloured\n"
+    "  --every       one frame in so many, for the digest and the pictures (default: 25)\n";
 
 class Pipeline {
  public:
-  explicit Pipeline(bool isPan)
-      : context_{std::make_shared<Executor>(0), {}},
+  Pipeline(bool isPan, double fps)
+      : fps_(fps),
+        context_{std::make_shared<Executor>(0), {}},
         background_(isPan ? nullptr : background::makeStage(context_)),
         segmentation_(segmentation::makeStage(context_)),
         graph_(graph::makeStage(context_)),
@@ -50,7 +62,7 @@ class Pipeline {
   std::shared_ptr<const objects::Objects> process(const bench::RawFrame& raw) {
     const auto picture = pictures_.take();
     picture->load(raw.view(), *context_.cpu);
-    const FrameTime time{frames_++ * 40'000'000, true};
+    const FrameTime time{std::llround(1e9 * static_cast<double>(frames_++) / fps_), true};
     std::shared_ptr<const background::Foreground> foreground;
     segmentation::Params segmentation;
     if (background_) {
@@ -64,6 +76,7 @@ class Pipeline {
   }
 
  private:
+  double fps_;
   Context context_;
   Pool<Picture> pictures_;
   std::unique_ptr<background::Stage> background_;
@@ -123,14 +136,18 @@ void writePicture(const std::string& path, bench::RawFrame& frame, const Scene& 
              static_cast<std::streamsize>(frame.bytes.size()));
 }
 
+Painter painterOf(const Options& options, uint32_t seed) {
+  const Size planned = plannedFrame(options.sampling.size);
+  Plan plan =
+      sampled(options.isPan ? planPan(seed, planned) : planStill(seed, planned), options.sampling);
+  auto canvas = options.background.empty() ? makeYard(seed, plan.canvas, plan.scale)
+                                           : valueOf(openClip(options.background, plan.canvas));
+  return {std::move(plan), std::move(canvas), seed};
+}
+
 Figures play(const Options& options, uint32_t seed) {
-  Plan plan = options.isPan ? planPan(seed, options.size) : planStill(seed, options.size);
-  const Size canvas = plan.canvas;
-  Painter painter(std::move(plan),
-                  options.background.empty() ? makeYard(seed, canvas)
-                                             : valueOf(openClip(options.background, canvas)),
-                  seed);
-  Pipeline pipeline(options.isPan);
+  Painter painter = painterOf(options, seed);
+  Pipeline pipeline(options.isPan, options.sampling.fps);
   Verdict verdict;
   bench::RawFrame frame;
   Scene scene;
@@ -152,31 +169,57 @@ bool isGood(const Figures& f, bool isPan) {
   return f.idf1 >= 1;
 }
 
+void tellDigest(const Options& options, uint32_t seed) {
+  Painter painter = painterOf(options, seed);
+  testing::Digest digest;
+  bench::RawFrame frame;
+  Scene scene;
+  while (painter.next(frame, scene)) {
+    digest.add({reinterpret_cast<const char*>(frame.bytes.data()), frame.bytes.size()});
+    digest.add(scene.cameraDx);
+    digest.add(scene.cameraDy);
+    for (const Fact& fact : scene.facts)
+      for (const double value : {fact.box.x, fact.box.y, fact.box.width, fact.box.height,
+                                 fact.centroidX, fact.centroidY, fact.visible})
+        digest.add(value);
+    painter.skip(options.every - 1);
+  }
+  std::printf("seed %u: %016llx\n", seed, static_cast<unsigned long long>(digest.value()));
+}
+
 int run(const Options& options) {
+  if (options.isDigest) {
+    for (uint32_t seed = options.firstSeed; seed <= options.lastSeed; ++seed)
+      tellDigest(options, seed);
+    return 0;
+  }
   int good = 0, count = 0;
-  double centroid = 0, worst = 0;
+  double centroid = 0, worst = 0, idf1 = 0, found = 0, falseBoxes = 0;
   for (uint32_t seed = options.firstSeed; seed <= options.lastSeed; ++seed) {
     const Figures f = play(options, seed);
-    if (options.isPan)
-      std::printf("seed %u: camera %.3f (worst %.3f) px, found %.3f, false %.3f per frame", seed,
-                  f.cameraPx, f.cameraWorstPx, f.recall, f.falsePerFrame);
-    else
-      std::printf("seed %u: IDF1 %.4f, found %.4f, false %.3f per frame", seed, f.idf1, f.recall,
-                  f.falsePerFrame);
+    std::printf("seed %u: IDF1 %.4f, found %.4f, false %.3f per frame", seed, f.idf1, f.recall,
+                f.falsePerFrame);
+    if (options.isPan) std::printf(", camera %.3f (worst %.3f) px", f.cameraPx, f.cameraWorstPx);
     std::printf(", centroid %.2f px, hidden %.2f (worst %.2f) px%s\n", f.centroidPx, f.hiddenPx,
                 f.hiddenWorstPx, isGood(f, options.isPan) ? "" : "  <-");
     std::fflush(stdout);
     good += isGood(f, options.isPan);
+    idf1 += f.idf1;
+    found += f.recall;
+    falseBoxes += f.falsePerFrame;
     centroid += f.centroidPx;
     worst = std::max(worst, f.hiddenWorstPx);
     ++count;
   }
-  std::printf("good=%d of %d\ncentroid_px=%.3f\nhidden_worst_px=%.2f\n", good, count,
-              centroid / std::max(count, 1), worst);
+  const int scenes = std::max(count, 1);
+  std::printf("good=%d of %d\nidf1=%.4f\nfound=%.4f\nfalse_per_frame=%.4f\n", good, count,
+              idf1 / scenes, found / scenes, falseBoxes / scenes);
+  std::printf("centroid_px=%.3f\nhidden_worst_px=%.2f\n", centroid / scenes, worst);
   return good < options.least ? 1 : 0;
 }
 
 bool parse(int argc, char** argv, Options& options) {
+  Size& size = options.sampling.size;
   for (int i = 1; i < argc; ++i) {
     const std::string name = argv[i];
     const char* value = i + 1 < argc ? argv[i + 1] : "";
@@ -184,6 +227,8 @@ bool parse(int argc, char** argv, Options& options) {
       options.isPan = true;
     else if (name == "--explain")
       options.explains = true;
+    else if (name == "--digest")
+      options.isDigest = true;
     else if (++i == argc)
       return false;
     else if (name == "--background")
@@ -197,13 +242,17 @@ bool parse(int argc, char** argv, Options& options) {
     else if (name == "--seeds" &&
              std::sscanf(value, "%u:%u", &options.firstSeed, &options.lastSeed) == 2)
       continue;
-    else if (name == "--size" &&
-             std::sscanf(value, "%dx%d", &options.size.width, &options.size.height) == 2)
+    else if (name == "--size" && std::sscanf(value, "%dx%d", &size.width, &size.height) == 2)
+      continue;
+    else if (name == "--fps" && std::sscanf(value, "%lf", &options.sampling.fps) == 1)
+      continue;
+    else if (name == "--noise" && std::sscanf(value, "%lf", &options.sampling.noise) == 1)
       continue;
     else
       return false;
   }
-  return options.size.width >= 64 && options.size.height >= 64 && options.every > 0;
+  return size.width >= 64 && size.height >= 64 && options.every > 0 && options.sampling.fps >= 1 &&
+         options.sampling.fps <= 1000 && options.sampling.noise >= 0;
 }
 
 }  // namespace

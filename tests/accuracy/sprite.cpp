@@ -2,12 +2,19 @@
 #include "tests/accuracy/sprite.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
 namespace rg::truth {
 namespace {
 
 constexpr int kNothing = -1;
+constexpr int kLeastHeight = 4;
+constexpr int kGrainPx = 3;  ///< In pixels of the plan.
+
+uint32_t grainAt(int place, double scale) {
+  return static_cast<uint32_t>(place / (kGrainPx * scale));
+}
 
 /// Width in percent of the height.
 int widthOf(Shape shape) {
@@ -59,22 +66,26 @@ int partAt(Shape shape, int x, int y) {
 
 }  // namespace
 
-Sprite makeSprite(Shape shape, int height, const Rgb& main, Dice& dice) {
-  const Size body{height * widthOf(shape) / 100, height};
-  Sprite sprite{{body.width + 2, body.height + 2}, {}, {}, {}, 0, 0};
+Model drawModel(Shape shape, int height, const Rgb& main, Dice& dice) {
   const auto part = [&] { return static_cast<float>(dice.whole(15, 240)); };
-  const Rgb colours[] = {main, {part(), part(), part()}, {part(), part(), part()}};
-  const uint32_t grain = dice.bits();
+  Model model{shape, height, {main, {part(), part(), part()}, {part(), part(), part()}}, 0};
+  model.grain = dice.bits();
+  return model;
+}
+
+Sprite makeSprite(const Model& model, double scale) {
+  const int height = std::max(kLeastHeight, static_cast<int>(std::lround(model.height * scale)));
+  const Size body{height * widthOf(model.shape) / 100, height};
+  Sprite sprite{model, {body.width + 2, body.height + 2}, {}, {}, {}, 0, 0};
   double count = 0;
   for (int y = 0; y < sprite.size.height; ++y)
     for (int x = 0; x < sprite.size.width; ++x) {
       const bool isInside = boundsOf(body).contains({x - 1, y - 1});
-      const int found =
-          isInside ? partAt(shape, (2 * x - 1) * 500 / body.width, (2 * y - 1) * 500 / body.height)
-                   : kNothing;
-      Rgb colour = colours[std::max(found, 0)];
-      const uint32_t hash =
-          mixHash(static_cast<uint32_t>(x / 3), static_cast<uint32_t>(y / 3), grain);
+      const int found = isInside ? partAt(model.shape, (2 * x - 1) * 500 / body.width,
+                                          (2 * y - 1) * 500 / body.height)
+                                 : kNothing;
+      Rgb colour = model.colours[static_cast<size_t>(std::max(found, 0))];
+      const uint32_t hash = mixHash(grainAt(x, scale), grainAt(y, scale), model.grain);
       for (float& channel : colour)
         channel = std::clamp(channel + static_cast<float>(hash % 25) - 12, 0.0f, 255.0f);
       sprite.colours.push_back(colour);

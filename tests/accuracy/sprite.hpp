@@ -10,8 +10,17 @@ namespace rg::truth {
 enum class Shape { Person, Car, Block, Ball, Diamond, Corner };
 inline constexpr int kShapes = 6;
 
+/// What a sprite is drawn from, at any scale.
+struct Model {
+  Shape shape = Shape::Block;
+  int height = 0;  ///< Of its body, in pixels of the plan.
+  std::array<Rgb, 3> colours{};
+  uint32_t grain = 0;
+};
+
 /// Seen from its upper left corner. A margin of one pixel is empty.
 struct Sprite {
+  Model model;
   Size size;
   std::vector<Rgb> colours;
   std::vector<float> cover;  ///< 0 or 1.
@@ -23,7 +32,8 @@ struct Sprite {
   }
 };
 
-/// height: of its body, in pixels; `main` is its largest part's colour.
-[[nodiscard]] Sprite makeSprite(Shape shape, int height, const Rgb& main, Dice& dice);
+/// `main` is its largest part's colour.
+[[nodiscard]] Model drawModel(Shape shape, int height, const Rgb& main, Dice& dice);
+[[nodiscard]] Sprite makeSprite(const Model& model, double scale = 1);
 
 }  // namespace rg::truth
