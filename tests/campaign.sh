@@ -9,7 +9,7 @@
 #        campaign.sh --keep                    the fuzzers' new inputs, as few as reach what all
 #                                              reach, into tests/fuzz/corpus
 #        campaign.sh --configure               only makes the build folder of the fuzzers
-# PART: fuzz threads allocations soak camera (default: all)
+# PART: analyser fuzz threads allocations soak camera (default: all; --short: all but the analyser)
 # FUZZ_BUILD, TSAN_BUILD, BUILD_DIR: build folders (default: build-fuzz, build-tsan, build)
 set -euo pipefail
 
@@ -18,7 +18,7 @@ fuzz_build=$(realpath -m "${FUZZ_BUILD:-$root/build-fuzz}")
 tsan_build=$(realpath -m "${TSAN_BUILD:-$root/build-tsan}")
 build=$(realpath -m "${BUILD_DIR:-$root/build}")
 cache=$(command -v ccache || true)
-targets=(chain lines metas objects text)
+targets=(cascades chain lines metas objects text)
 corpora=corpus  # The folder of what the fuzzers reach.
 most_kept=100  # Inputs of a target in tests/fuzz/corpus.
 
@@ -33,12 +33,15 @@ while (($#)); do
     --short) is_short=1 ;;
     --keep) is_keeping=1 ;;
     --configure) is_configuring=1 ;;
-    fuzz | threads | allocations | soak | camera) parts+=("$1") ;;
-    *) sed -n '3,16s/^# \?//p' "$0"; exit 2 ;;
+    analyser | fuzz | threads | allocations | soak | camera) parts+=("$1") ;;
+    *) sed -n '3,13s/^# \?//p' "$0"; exit 2 ;;
   esac
   shift
 done
-((${#parts[@]})) || parts=(fuzz threads allocations soak camera)
+if ((${#parts[@]} == 0)); then
+  parts=(analyser fuzz threads allocations soak camera)
+  ((is_short == 0)) || parts=("${parts[@]:1}")
+fi
 
 export G_SLICE=always-malloc G_DEBUG=gc-friendly ORC_CODE=backup GST_PLUGIN_PATH=
 
@@ -77,11 +80,21 @@ fuzz_one() {  # TARGET SECONDS [arguments of libFuzzer]
   return 1
 }
 
+# What clang-tidy finds by walking through core's code.
+run_analyser() {
+  local log=$fuzz_build/analyser.log
+  configure_fuzzers
+  ninja -C "$fuzz_build" >/dev/null
+  run-clang-tidy -quiet -checks='-*,clang-analyzer-*,-clang-analyzer-optin.performance.Padding' \
+    -p "$fuzz_build" "^$root/core/.*\.cpp$" >"$log" 2>&1 ||
+    { grep -A 5 -E 'warning:|error:' "$log"; return 1; }
+}
+
 run_fuzz() {
   build_fuzzers
   local seconds target
   if ((is_short)); then  # Much the same inputs each time: a test must not fail by chance.
-    local -A runs=([chain]=20 [lines]=30000 [metas]=100 [objects]=200 [text]=3000)
+    local -A runs=([cascades]=2000 [chain]=20 [lines]=30000 [metas]=100 [objects]=200 [text]=3000)
     corpora=corpus-short
     rm -rf "${fuzz_build:?}/$corpora"
     for target in "${targets[@]}"; do
