@@ -18,8 +18,8 @@ class Detections {
   void begin(GstBuffer* buffer, const objects::Objects& objects);
   void add(const objects::Object& object, GQuark type, const Box& box);
   /// What a region of interest that tells the same object is to have as its id: that of the
-  /// detection, by which DL Streamer looks it up, or the object's number where there are none. 0 =
-  /// not on this frame.
+  /// detection, by which DL Streamer looks it up, or the object's number where there are none;
+  /// never 0, which is: not on this frame.
   [[nodiscard]] gint idOf(uint64_t number) const;
 
  private:
@@ -34,7 +34,7 @@ class Detections {
   [[maybe_unused]] GstBuffer* buffer_ = nullptr;  ///< Not where there is no GstAnalytics.
 };
 
-/// Adds a detection by itself; its number on this frame, 0 where there are none.
+/// Adds a detection by itself; its number on this frame, which may be 0, or 0 where there are none.
 gint addDetection(GstBuffer* buffer, GQuark type, const Box& box);
 
 /// Adds a class to a detection of this frame, which contains it, as DL Streamer has them.
