@@ -38,7 +38,7 @@ void Detections::add(const objects::Object& object, GQuark type, const Box& box)
   if (!meta) meta = gst_buffer_add_analytics_relation_meta(buffer_);
   GstAnalyticsODMtd detection;
   GstAnalyticsTrackingMtd tracking;
-  // Their numbers on a frame begin with 0, which as that of a region's parent means none: what comes
+  // Numbers on a frame begin with 0, which as that of a region's parent means none: what comes
   // first is no detection.
   if (!gst_analytics_relation_meta_add_tracking_mtd(meta, object.id, seen->first, &tracking) ||
       !gst_analytics_relation_meta_add_od_mtd(meta, type, box.x, box.y, box.width, box.height, 1.0F,

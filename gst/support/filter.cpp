@@ -11,17 +11,7 @@
 #include <tuple>
 #include <utility>
 
-#define RG_PIXEL_FORMATS                                                                 \
-  "{ BGRx, RGBx, BGRA, RGBA, BGR, RGB, NV12, I420, GRAY8, NV21, YUY2, UYVY, Y42B, GBR, " \
-  "I420_10LE, P010_10LE }"
-#define RG_SIZES \
-  "width=(int)[1,16384], height=(int)[1,16384], framerate=(fraction)[0/1,2147483647/1]"
-
 namespace rg {
-
-const char* const kPixelCaps = "video/x-raw, format=(string)" RG_PIXEL_FORMATS ", " RG_SIZES;
-const char* const kMetaCaps = "video/x-raw(ANY), " RG_SIZES;
-
 namespace {
 
 /// GObject can't refuse to make an instance. Where there was no memory for the filter, the element

@@ -157,7 +157,8 @@ TEST(BadCaps, AreRefusedWithObjectsInView) {
         std::string("video/x-raw,format=ENCODED,width=64,height=48,framerate=25/1"),
         std::string("video/x-raw(memory:DMABuf),format=GRAY8,width=64,height=48,framerate=25/1"),
         std::string("video/x-raw(memory:GLMemory),format=RGBA,width=64,height=48,framerate=25/1"),
-        std::string("video/x-raw(memory:CUDAMemory),format=NV12,width=64,height=48,framerate=25/1"),
+        std::string(
+            "video/x-raw(memory:CUDAMemory),format=GRAY8,width=64,height=48,framerate=25/1"),
         std::string("audio/x-raw,format=S16LE,rate=8000,channels=1,layout=interleaved"),
         std::string("image/jpeg,width=64,height=48")}) {
     SCOPED_TRACE(caps);

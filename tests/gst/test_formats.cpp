@@ -245,6 +245,33 @@ TEST(DmaBuf, SaysWhatOtherMemorySays) {
   }
 }
 
+/// Frames of a decoder on a GPU, for want of one in memory that has to be mapped too: they pass as
+/// they are, by any number of stages, and say what other memory says.
+TEST(CudaMemory, SaysWhatOtherMemorySays) {
+  const DmaBufs dmaBufs;
+  const std::string feature = "memory:CUDAMemory";
+  for (const char* format : {"NV12", "I420", "P010_10LE", "BGRx"}) {
+    SCOPED_TRACE(format);
+    const Caps caps{format, 96, 64};
+    Chain chain(testing::kQuickStages, caps), other(testing::kQuickStages, caps);
+    ASSERT_TRUE(testing::sendCaps(
+        chain, "video/x-raw(" + feature + ")" + caps.text().substr(strlen("video/x-raw"))));
+    Story story, expected;
+    int inView = 0;
+    for (int i = 0; i < kFrames; ++i) {
+      BufferPtr frame = colourFrame(caps, i);
+      const BufferPtr out = chain.pass(dmaBufs.share(caps, frame.get(), 1));
+      ASSERT_TRUE(out);
+      ASSERT_EQ(story.tell(out.get()), expected.tell(other.pass(std::move(frame)).get()));
+      inView += objectsOn(out.get());
+    }
+    EXPECT_GT(inView, 0);
+    GstCaps* passed = gst_pad_get_current_caps(chain.harness()->sinkpad);
+    EXPECT_TRUE(gst_caps_features_contains(gst_caps_get_features(passed, 0), feature.c_str()));
+    gst_caps_unref(passed);
+  }
+}
+
 TEST(DmaBuf, ThatCantBeMappedOrIsShortIsCountedAndTheStreamGoesOn) {
   const DmaBufs dmaBufs;
   const Caps caps{"NV12", 96, 64};
