@@ -7,9 +7,12 @@
 #include "core/motion/motion.hpp"
 #include "core/objects/objects.hpp"
 #include "core/segmentation/segmentation.hpp"
+#include "kernels/backend/open_device.hpp"
 #include "tests/benchmarks/scene.hpp"
 #include "tests/benchmarks/timing.hpp"
 #include "tests/support/value_of.hpp"
+
+#include <thread>
 
 namespace rg::bench {
 namespace {
@@ -19,15 +22,40 @@ const std::vector<std::string> kStages = {"hsvsegment", "srg", "prmmotion", "mrf
 // The paper's milliseconds for 640x480 and 160 regions.
 constexpr double kPaperCpuMs = 1460, kPaperGpuMs = 22.81;
 
+/// Where the stages of a pipeline run: a device serves one stage, and those of one pipeline share
+/// its memory.
+class Contexts {
+ public:
+  explicit Contexts(const Options& options)
+      : cpu_(std::make_shared<Executor>(options.threads)),
+        usesDevice_(options.backend == "cuda"),
+        device_(options.device) {}
+
+  Context next() {
+    if (!usesDevice_) return {cpu_, {}};
+    last_ = valueOf(gpu::openDevice(device_, last_));
+    return {cpu_, last_};
+  }
+  [[nodiscard]] Context onHost() const { return {cpu_, {}}; }
+  /// What is said of a device that they run on.
+  [[nodiscard]] std::string name() const { return last_ ? ", on " + last_->name() : ""; }
+  [[nodiscard]] const Executor& cpu() const { return *cpu_; }
+
+ private:
+  std::shared_ptr<const Executor> cpu_;
+  bool usesDevice_;
+  int device_;
+  std::shared_ptr<Device> last_;
+};
+
 class Pipeline {
  public:
-  explicit Pipeline(const Options& options)
-      : context_{std::make_shared<Executor>(options.threads), {}} {
-    background_ = background::makeStage(context_);
-    segmentation_ = segmentation::makeStage(context_);
-    graph_ = graph::makeStage(context_);
-    motion_ = motion::makeStage(context_);
-    objects_ = objects::makeStage(context_);
+  explicit Pipeline(const Options& options) : contexts_(options) {
+    background_ = background::makeStage(contexts_.next());
+    segmentation_ = segmentation::makeStage(contexts_.next());
+    graph_ = graph::makeStage(contexts_.next());
+    motion_ = motion::makeStage(contexts_.next());
+    objects_ = objects::makeStage(contexts_.onHost());
     segmentationParams_.scope = options.scope;
     segmentationParams_.maxRegions = options.regions;
     segmentationParams_.minAreaPx = options.minAreaPx;
@@ -45,7 +73,7 @@ class Pipeline {
     const Frame frame = raw.view();
     const auto picture = pictures_.take();
     const FrameTime time{frames_++ * 40'000'000, true};
-    timings.measure(kLoadRow, [&] { picture->load(frame, *context_.cpu); });
+    timings.measure(kLoadRow, [&] { picture->load(frame, contexts_.cpu()); });
     auto foreground = timings.measure(kBackgroundRow, [&] {
       return valueOf(background_->process(picture, backgroundParams_, time));
     });
@@ -70,7 +98,8 @@ class Pipeline {
   };
   [[nodiscard]] const Notes& notes() const { return notes_; }
 
-  [[nodiscard]] int threads() const { return context_.cpu->threads(); }
+  [[nodiscard]] int threads() const { return contexts_.cpu().threads(); }
+  [[nodiscard]] std::string backend() const { return contexts_.name(); }
 
  private:
   void note(const motion::Motion& motion, const objects::Objects& objects) {
@@ -81,7 +110,7 @@ class Pipeline {
     notes_.stillBlocks += motion.stillBlocks;
   }
 
-  Context context_;
+  Contexts contexts_;
   Pool<Picture> pictures_;
   std::unique_ptr<background::Stage> background_;
   std::unique_ptr<segmentation::Stage> segmentation_;
@@ -101,6 +130,7 @@ struct Measured {
   std::string scene;
   Size size;
   int threads = 0;
+  std::string backend;
   Pipeline::Notes notes;
   Timings timings;
 
@@ -110,7 +140,8 @@ struct Measured {
 Measured measure(const Options& options, Clock clock = Clock::Wall) {
   const auto source = valueOf(openSource(options));
   Pipeline pipeline(options);
-  Measured measured{source->describe(), {}, pipeline.threads(), {}, Timings(clock)};
+  Measured measured{source->describe(), {}, pipeline.threads(),
+                    pipeline.backend(), {}, Timings(clock)};
   RawFrame frame;
   for (int i = 0; i < options.warmUp + options.frames; ++i) {
     valueOf(source->next(frame));
@@ -126,8 +157,8 @@ Measured measure(const Options& options, Clock clock = Clock::Wall) {
 int runOnce(const Options& options) {
   const Measured measured = measure(options, options.asksCpu ? Clock::Cpu : Clock::Wall);
   const Pipeline::Notes& notes = measured.notes;
-  std::printf("%dx%d, threads %d, frames %d, %s\n", measured.size.width, measured.size.height,
-              measured.threads, options.frames, measured.scene.c_str());
+  std::printf("%dx%d, threads %d, frames %d, %s%s\n", measured.size.width, measured.size.height,
+              measured.threads, options.frames, measured.scene.c_str(), measured.backend.c_str());
   std::printf("%zu to %zu regions in a frame, %zu objects in the last one\n", notes.fewestRegions,
               notes.mostRegions, notes.objects);
   std::printf("%.2f %% of the cells took the shortcut for what stands still\n",
@@ -139,6 +170,37 @@ int runOnce(const Options& options) {
       "(total: the last four; 640x480 with 160 regions took the paper %.0f ms on a CPU, "
       "%.2f ms on a GPU)\n",
       kPaperCpuMs, kPaperGpuMs);
+  return 0;
+}
+
+/// Pipelines that all get the same frames, as fast as they take them.
+int runStreams(Options options) {
+  options.threads = 1;
+  const auto source = valueOf(openSource(options));
+  std::vector<RawFrame> frames(static_cast<size_t>(options.warmUp + options.frames));
+  for (RawFrame& frame : frames) valueOf(source->next(frame));
+  std::vector<std::unique_ptr<Pipeline>> pipelines;
+  for (int i = 0; i < options.streams; ++i)
+    pipelines.push_back(std::make_unique<Pipeline>(options));
+  const auto showAll = [&](std::span<const RawFrame> shown) {
+    std::vector<std::thread> threads;
+    for (const auto& pipeline : pipelines)
+      threads.emplace_back([&pipeline = *pipeline, shown] {
+        Timings timings;
+        for (const RawFrame& frame : shown) pipeline.process(frame, timings);
+      });
+    for (std::thread& thread : threads) thread.join();
+  };
+  const auto warmUp = static_cast<size_t>(options.warmUp);
+  showAll(std::span(frames).first(warmUp));
+  const double startMs = nowMs(Clock::Wall);
+  showAll(std::span(frames).subspan(warmUp));
+  const double seconds = (nowMs(Clock::Wall) - startMs) / 1000;
+  const double perSecond = options.streams * options.frames / seconds;
+  const Size size = frames.front().layout.size;
+  std::printf("%dx%d, streams %d, frames %d each, %s%s\n", size.width, size.height, options.streams,
+              options.frames, source->describe().c_str(), pipelines.front()->backend().c_str());
+  std::printf("frames_per_s=%.1f\nstreams_of_30=%.1f\n", perSecond, perSecond / 30);
   return 0;
 }
 
@@ -236,6 +298,7 @@ int runWorst(Options options) {
 
 int run(const Options& options) {
   if (options.asksTable) return runTable(options);
+  if (options.streams > 0) return runStreams(options);
   return options.asksWorst ? runWorst(options) : runOnce(options);
 }
 

@@ -36,16 +36,17 @@ struct NumberOption {
   int least, most;
 };
 constexpr NumberOption kNumbers[] = {
-    {"--regions", &Options::regions, 1, 65535},     {"--similarity", &Options::similarity, 0, 254},
-    {"--shift", &Options::shiftPx, 1, 64},          {"--threads", &Options::threads, 0, 1024},
-    {"--frames", &Options::frames, 1, 1000000},     {"--warm-up", &Options::warmUp, 0, 1000000},
-    {"--min-area", &Options::minAreaPx, 0, 1000000}};
+    {"--regions", &Options::regions, 1, 65535},      {"--similarity", &Options::similarity, 0, 254},
+    {"--shift", &Options::shiftPx, 1, 64},           {"--threads", &Options::threads, 0, 1024},
+    {"--frames", &Options::frames, 1, 1000000},      {"--warm-up", &Options::warmUp, 0, 1000000},
+    {"--min-area", &Options::minAreaPx, 0, 1000000}, {"--device", &Options::device, 0, 255},
+    {"--streams", &Options::streams, 1, 1024}};
 
 bool isKnown(std::string_view name) {
   for (const NumberOption& option : kNumbers)
     if (option.name == name) return true;
   return name == "--input" || name == "--size" || name == "--scene" || name == "--scope" ||
-         name == "--connectivity";
+         name == "--connectivity" || name == "--backend";
 }
 
 bool setScene(Options& options, std::string_view value) {
@@ -79,6 +80,11 @@ bool setConnectivity(Options& options, std::string_view value) {
   return value == "4" || value == "8";
 }
 
+bool setBackend(Options& options, std::string_view value) {
+  options.backend = value;
+  return value == "cpu" || value == "cuda";
+}
+
 bool set(Options& options, std::string_view name, std::string_view value) {
   if (name == "--input") options.input = value;
   if (name == "--input") return !value.empty();
@@ -86,6 +92,7 @@ bool set(Options& options, std::string_view name, std::string_view value) {
   if (name == "--scene") return setScene(options, value);
   if (name == "--scope") return setScope(options, value);
   if (name == "--connectivity") return setConnectivity(options, value);
+  if (name == "--backend") return setBackend(options, value);
   for (const NumberOption& option : kNumbers) {
     if (option.name != name) continue;
     const auto parsed = number(value, option.least, option.most);
@@ -125,6 +132,8 @@ Result<Options> parseOptions(std::span<const char* const> arguments) {
   if (options.asksExtreme) setExtreme(options);
   if (options.asksTable && (hasSize || !options.input.empty()))
     return Error{"--table has its own sizes"};
+  if (options.streams > 0 && (options.asksTable || options.asksWorst))
+    return Error{"--streams is for one scene"};
   return options;
 }
 
@@ -133,7 +142,7 @@ std::string usage(const std::string& program) {
          " [--input FILE | --size WxH | --table] [--scene NAME] [--worst] [--cpu]\n"
          "       [--scope frame | foreground] [--regions N] [--min-area N] [--similarity N]\n"
          "       [--connectivity 4 | 8] [--shift R] [--extreme] [--threads T] [--frames N]\n"
-         "       [--warm-up N] [--literal]\n"
+         "       [--warm-up N] [--literal] [--backend cpu | cuda] [--device N] [--streams N]\n"
          "  --input    frames to measure on: .y4m, or what OpenCV reads (default: a scene)\n"
          "  --size     of the scene (default 640x480)\n"
          "  --table    all sizes and numbers of regions that the paper has times of\n"
@@ -151,6 +160,10 @@ std::string usage(const std::string& program) {
          "  --regions  in the synthetic scene, and at most in the segmentation (default 160)\n"
          "  --min-area least pixels of a region (default 0: by the frame's size)\n"
          "  --literal  bgremove, prmmotion and mrfmerge as the paper says them, regions by HSV\n"
+         "  --backend  cuda: what can be done on a GPU is done there (bench only)\n"
+         "  --device   which GPU (default 0)\n"
+         "  --streams  so many pipelines at once, with a thread each: frames a second (bench "
+         "only)\n"
          "  --shift    largest motion searched, in pixels (default 20)\n"
          "  --similarity    largest step between neighbours in a region (default 2)\n"
          "  --connectivity  of the graph (default 4)\n"

@@ -40,7 +40,10 @@ struct Options {
   bool asksExtreme = false;  ///< The settings that cost most: as many and as small regions as can
                              ///< be, all 8 neighbours, the longest shifts.
   bool asksCpu = false;      ///< Measure the processor's time, not the wall's.
-  bool isLiteral = false;    ///< The paper's own system, literally, in place of ours.
+  std::string backend = "cpu";  ///< Or cuda: the stages that can do so work on a GPU.
+  int device = 0;               ///< Which GPU.
+  int streams = 0;         ///< So many pipelines at once, of one thread each; 0 = one pipeline.
+  bool isLiteral = false;  ///< The paper's own system, literally, in place of ours.
   segmentation::Scope scope = segmentation::Scope::Frame;  ///< Foreground: as behind bgremove.
   bool asksHelp = false;                                   ///< Print the usage and do nothing.
 };

@@ -90,6 +90,25 @@ class Bench(unittest.TestCase):
         self.sums(lines)
 
     @unittest.skipUnless('total_ms' in SUMS, 'of bench only')
+    def test_counts_the_frames_of_several_streams(self):
+        status, lines, errors = bench('--streams', '3', '--size', '96x64', '--warm-up', '1',
+                                      *QUICK, *SYNTHETIC)
+        self.assertEqual((status, errors), (0, ''))
+        self.assertTrue(lines[0].startswith('96x64, streams 3, frames 2 each'), lines[0])
+        figures = dict(line.split('=') for line in lines[1:])
+        self.assertEqual(list(figures), ['frames_per_s', 'streams_of_30'])
+        self.assertAlmostEqual(float(figures['frames_per_s']) / 30,
+                               float(figures['streams_of_30']), delta=.1)
+
+    @unittest.skipUnless('total_ms' in SUMS, 'of bench only')
+    def test_works_on_a_gpu_or_says_why_not(self):
+        status, lines, errors = bench('--backend', 'cuda', '--size', '96x64', *QUICK, *SYNTHETIC)
+        if status == 0:
+            self.assertIn(', on ', lines[0])
+        else:
+            self.assertIn('CUDA', errors)
+
+    @unittest.skipUnless('total_ms' in SUMS, 'of bench only')
     def test_times_the_papers_own_system(self):
         status, lines, errors = bench('--size', '96x64', '--regions', '20', '--shift', '4',
                                       '--literal', *QUICK, *SYNTHETIC)
@@ -120,7 +139,8 @@ class Bench(unittest.TestCase):
         for wrong in (['--speed', '9'], ['--frames'], ['--frames', '0'], ['--frames', '2x'],
                       ['--size', '640'], ['--size', '0x480'], ['--threads', '-1'], ['clip.y4m'],
                       ['--input', 'a.y4m', '--size', '8x8'], ['--scene', 'desert'],
-                      ['--scope', 'moon'], ['--table', '--size', '8x8']):
+                      ['--scope', 'moon'], ['--backend', 'abacus'], ['--streams', '0'],
+                      ['--streams', '2', '--table'], ['--table', '--size', '8x8']):
             status, _, errors = bench(*wrong)
             self.assertEqual(status, 2, wrong)
             self.assertIn('usage:', errors)

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Whole stages with a device, which is the host here (kernels/shim): the same results, whichever of
-// its calls fails.
+// Whole stages with a device: the same results, whichever of its calls fails.
 #include "tests/core/staged_scene.hpp"
-#include "tests/kernels/host_device.hpp"
+#include "tests/kernels/tested_device.hpp"
 
 #include <gtest/gtest.h>
 
@@ -50,7 +49,7 @@ Take takeAt(int frame) {
 }
 
 TEST(Backend, BackgroundIsTheSameOnADevice) {
-  const auto device = openHost();
+  const auto device = openTested();
   StagedScene cpu({}, kQuick), gpu({}, kQuick, device);
   std::vector<SceneEvent> seen;
   for (int frame = 0; frame < 100 && !HasFatalFailure(); ++frame) {
@@ -59,7 +58,7 @@ TEST(Backend, BackgroundIsTheSameOnADevice) {
     expectSame(*gpu.show(takeAt(frame)), *expected, frame);
   }
   EXPECT_TRUE(device->isUp());
-  EXPECT_TRUE(gpu::shim::findings().empty());
+  expectNoFindings();
   for (const SceneEvent event :
        {SceneEvent::CameraShaken, SceneEvent::LightSwitched, SceneEvent::TooDark,
         SceneEvent::BrightAgain, SceneEvent::ColourSwitched})
@@ -74,17 +73,17 @@ constexpr int kWalking = 5, kAfter = 3;
 /// long.
 void failCalls(int frame, DeviceError::Kind kind,
                const std::vector<std::shared_ptr<const Foreground>>& expected) {
-  const int64_t before = gpu::shim::countAllocations();
+  const int64_t before = countAllocations();
   std::mt19937 random(std::random_device{}());
   const uint64_t mostStep = frame < kWalking ? 1 : 7;
   uint64_t call = 0;
   for (bool hasFailed = true; hasFailed && !::testing::Test::HasFailure();
        call += 1 + random() % mostStep) {
     SCOPED_TRACE("call " + std::to_string(call));
-    const auto device = openHost();
+    const auto device = openTested();
     StagedScene gpu({}, kQuick, device);
     for (int i = 0; i < frame; ++i) (void)gpu.show(takeAt(i));
-    gpu::shim::plan(gpu::shim::Fault{call, kind});
+    failCall(call, kind);
     const auto shown = gpu.show(takeAt(frame));
     hasFailed = !device->isUp();
     if (hasFailed) {
@@ -95,10 +94,11 @@ void failCalls(int frame, DeviceError::Kind kind,
     }
   }
   EXPECT_GT(call, 20u);
-  EXPECT_EQ(gpu::shim::countAllocations(), before);
+  EXPECT_EQ(countAllocations(), before);
 }
 
 TEST(Backend, AFailedCallChangesNoFrame) {
+  if (!isHost()) GTEST_SKIP() << "a GPU does not fail when asked";
   StagedScene cpu({}, kQuick);
   std::vector<std::shared_ptr<const Foreground>> expected;
   for (int i = 0; i < kWalking + kAfter; ++i) expected.push_back(cpu.show(takeAt(i)));
@@ -107,6 +107,7 @@ TEST(Backend, AFailedCallChangesNoFrame) {
 
 /// The frame is the first of a model that starts with it, and says so.
 TEST(Backend, ALostDeviceCostsTheModelOnly) {
+  if (!isHost()) GTEST_SKIP() << "a GPU does not fail when asked";
   StagedScene cpu({}, kQuick);
   std::vector<std::shared_ptr<const Foreground>> expected;
   for (int i = 0; i < kWalking + kAfter; ++i) {

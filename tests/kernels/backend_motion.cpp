@@ -3,8 +3,8 @@
 // even when it is lost.
 #include "core/graph/graph.hpp"
 #include "core/motion/motion.hpp"
-#include "tests/kernels/host_device.hpp"
 #include "tests/kernels/labelled_scene.hpp"
+#include "tests/kernels/tested_device.hpp"
 
 #include <gtest/gtest.h>
 
@@ -78,7 +78,7 @@ struct Chained {
 };
 
 TEST(MotionBackend, GraphsAndVectorsAreTheSameOnADevice) {
-  const auto device = openHost(), other = openHost(device);
+  const auto device = openTested(), other = openTested(device);
   Chained cpu(nullptr, nullptr), gpu(device, other);
   size_t moving = 0;
   for (const bool isGrey : {false, true})
@@ -95,10 +95,11 @@ TEST(MotionBackend, GraphsAndVectorsAreTheSameOnADevice) {
         }
   EXPECT_GT(moving, 20u);
   EXPECT_TRUE(device->isUp() && other->isUp());
-  EXPECT_TRUE(gpu::shim::findings().empty());
+  expectNoFindings();
 }
 
 TEST(MotionBackend, NeitherAFailedCallNorALostDeviceChangesAnything) {
+  if (!isHost()) GTEST_SKIP() << "a GPU does not fail when asked";
   const auto labels = walk(segmentation::Scope::Frame, false, 40);
   const motion::Params params{4};
   Chained cpu(nullptr, nullptr);
@@ -108,10 +109,10 @@ TEST(MotionBackend, NeitherAFailedCallNorALostDeviceChangesAnything) {
     uint64_t call = 0;
     for (bool hasFailed = true; hasFailed && !HasFailure(); ++call) {
       SCOPED_TRACE("call " + std::to_string(call));
-      const auto device = openHost(), other = openHost(device);
+      const auto device = openTested(), other = openTested(device);
       Chained gpu(device, other);
       (void)gpu.show(labels[0], Connectivity::Four, params);
-      gpu::shim::plan(gpu::shim::Fault{call, kind});
+      failCall(call, kind);
       for (size_t i = 1; i < labels.size() - 1; ++i) {
         const auto found = gpu.show(labels[i], Connectivity::Four, params);
         ASSERT_NO_FATAL_FAILURE(expectSame(*found->graph, *expected[i]->graph));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The segmentation's stage with a device: the same labels, whichever of its calls fails.
-#include "tests/kernels/host_device.hpp"
 #include "tests/kernels/labelled_scene.hpp"
+#include "tests/kernels/tested_device.hpp"
 
 #include <gtest/gtest.h>
 
@@ -53,7 +53,7 @@ std::vector<Params> allWays() {
 }
 
 TEST(SegmentationBackend, LabelsAreTheSameOnADevice) {
-  const auto device = openHost();
+  const auto device = openTested();
   const auto cpu = makeStage(nullptr), gpu = makeStage(device);
   for (const Watched& watched : {Watched{true, false}, {false, false}, {true, true}}) {
     const auto seen = walkerSeen(20, watched);
@@ -69,7 +69,7 @@ TEST(SegmentationBackend, LabelsAreTheSameOnADevice) {
     }
   }
   EXPECT_TRUE(device->isUp());
-  EXPECT_TRUE(gpu::shim::findings().empty());
+  expectNoFindings();
 }
 
 /// No model is lost with a device: labels come from the frame alone.
@@ -79,10 +79,10 @@ void failEachCall(const Params& params, DeviceError::Kind kind) {
   uint64_t call = 0;
   for (bool hasFailed = true; hasFailed && !testing::Test::HasFailure(); ++call) {
     SCOPED_TRACE("call " + std::to_string(call));
-    const auto device = openHost();
+    const auto device = openTested();
     const auto gpu = makeStage(device);
     (void)gpu->process(seen->picture, seen, params);
-    gpu::shim::plan(gpu::shim::Fault{call, kind});
+    failCall(call, kind);
     const auto labels = gpu->process(seen->picture, seen, params);
     ASSERT_TRUE(labels);
     ASSERT_NO_FATAL_FAILURE(expectSame(**labels, **expected));
@@ -92,6 +92,7 @@ void failEachCall(const Params& params, DeviceError::Kind kind) {
 }
 
 TEST(SegmentationBackend, AFailedCallChangesNoLabel) {
+  if (!isHost()) GTEST_SKIP() << "a GPU does not fail when asked";
   for (const Params& params :
        {Params{Scope::Foreground, 4, 300, 1024, {}}, Params{Scope::Frame, 4, 1, 50, {}}})
     for (const auto kind : {DeviceError::Kind::Failed, DeviceError::Kind::Lost})
@@ -101,22 +102,23 @@ TEST(SegmentationBackend, AFailedCallChangesNoLabel) {
 /// What the stage before has left on the device is not sent again, and pixels of another device
 /// come by way of the host.
 TEST(SegmentationBackend, StagesShareADeviceOrNone) {
+  if (!isHost()) GTEST_SKIP() << "a GPU does not fail when asked";
   const Params params{Scope::Foreground, 4, 300, 1024, {}};
-  const auto there = openHost();
+  const auto there = openTested();
   const auto seen = walkerSeen(20, {}, there);
   const auto expected = makeStage(nullptr)->process(seen->picture, seen, params);
   const auto countAllocations = [&](const std::shared_ptr<Device>& device) {
     const auto stage = makeStage(device);
-    const int64_t before = gpu::shim::countAllocations();
+    const int64_t before = test::countAllocations();
     const auto labels = stage->process(seen->picture, seen, params);
     EXPECT_TRUE(labels);
     expectSame(**labels, **expected);
-    return gpu::shim::countAllocations() - before;
+    return test::countAllocations() - before;
   };
-  const int64_t shared = countAllocations(openHost(there));
+  const int64_t shared = countAllocations(openTested(there));
   // Luma, three colours and the mask.
-  EXPECT_EQ(countAllocations(openHost()) - shared, 5);
-  EXPECT_EQ(countAllocations(openHost(there)), shared);
+  EXPECT_EQ(countAllocations(openTested()) - shared, 5);
+  EXPECT_EQ(countAllocations(openTested(there)), shared);
 }
 
 }  // namespace

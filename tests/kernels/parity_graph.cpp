@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/graph/graph.hpp"
 #include "kernels/region_graph.hpp"
-#include "kernels/shim/block.hpp"
 #include "tests/kernels/divided.hpp"
 #include "tests/kernels/regions.hpp"
+#include "tests/kernels/tested_device.hpp"
 
 #include <algorithm>
 #include <memory>
@@ -100,7 +100,7 @@ namespace rg {
 TEST(Primitives, ASortKeepsTheOrderOfEqualKeys) {
   for (const uint32_t count : {0u, 1u, 33u, 2048u, 5000u})
     for (const uint32_t kinds : {1u, 3u, 0xFFFFFFFFu}) {
-      gpu::shim::begin({gpu::shim::Order::Random, 5});
+      test::shuffleThreads(5);
       test::DeviceSort pairs(6000);
       std::vector<std::pair<uint32_t, uint32_t>> expected;
       for (uint32_t i = 0; i < count; ++i) {
@@ -112,7 +112,7 @@ TEST(Primitives, ASortKeepsTheOrderOfEqualKeys) {
       gpu::sortPairs(pairs.view(), 6000, &count, nullptr);
       for (uint32_t i = 0; i < count; ++i)
         ASSERT_EQ(std::pair(pairs.keys[i], pairs.values[i]), expected[i]) << i << " of " << count;
-      ASSERT_TRUE(gpu::shim::findings().empty()) << gpu::shim::findings().front();
+      test::expectNoFindings();
     }
 }
 

@@ -4,8 +4,8 @@
 #include "kernels/cast_shadows.hpp"
 #include "kernels/mask_gaps.hpp"
 #include "kernels/primitives.hpp"
-#include "kernels/shim/block.hpp"
 #include "tests/kernels/masks.hpp"
+#include "tests/kernels/tested_device.hpp"
 
 #include <numeric>
 #include <vector>
@@ -226,7 +226,7 @@ namespace rg {
 
 TEST(Primitives, AScanSumsWhatStandsBefore) {
   for (const int count : {1, 31, 1024, 1025, 5000, 300000}) {
-    gpu::shim::begin({gpu::shim::Order::Random, 3});
+    test::shuffleThreads(3);
     std::vector<uint32_t> numbers(static_cast<size_t>(count)), sums(numbers.size() + 1, 9);
     for (size_t i = 0; i < numbers.size(); ++i)
       numbers[i] = test::hashOf(static_cast<int>(i), 0, 1);
@@ -239,7 +239,7 @@ TEST(Primitives, AScanSumsWhatStandsBefore) {
     sums.push_back(9);
     gpu::scan(sums.data(), count, sums.data(), scratch.data(), nullptr);
     ASSERT_EQ(sums, expected) << count << " in place";
-    ASSERT_TRUE(gpu::shim::findings().empty()) << gpu::shim::findings().front();
+    test::expectNoFindings();
   }
 }
 
