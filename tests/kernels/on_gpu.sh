@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Tests and measures the kernels on this machine's GPU, from the folder that bundle.sh made:
 # operations and stages against the CPU's bits, NVIDIA's checkers where they are installed, times.
-# What it prints at the end goes into kernels/MEASURED.md. Fails when a comparison or a checker does;
-# exits with 77 where there is no GPU.
+# What it prints goes into kernels/MEASURED.md. Fails when a comparison or a checker does; exits
+# with 77 where there is no GPU.
 #
 # usage: on_gpu.sh [PART...]     PART: parity checkers times (default: all)
 set -uo pipefail
