@@ -95,11 +95,12 @@ run_tidy() {
 }
 
 # Without optimiser nothing hides what is read before it is written. The linker sees all types at
-# once and compares those of one name. What compares instruction sets waits for the optimiser.
+# once and compares those of one name. Without precompiled headers each source includes what it
+# uses. What compares instruction sets waits for the optimiser.
 run_plain() {
   [[ -f $plain_build/build.ninja ]] ||
     CC="$cache gcc" CXX="$cache g++" meson setup "$plain_build" "$root" -Dwerror=true \
-      -Dcuda=disabled -Doptimization=0 -Db_lto=true -Db_lundef=false \
+      -Dcuda=disabled -Db_pch=false -Doptimization=0 -Db_lto=true -Db_lundef=false \
       -Dcpp_link_args='-Wodr -Werror=odr' >/dev/null
   ninja -C "$plain_build" tests/core/core-tests tests/gst/gst-tests tests/accuracy/scenes >/dev/null
   "$plain_build/tests/core/core-tests" --gtest_brief=1 \
@@ -124,11 +125,10 @@ run_fuzz() {
   for target in "${targets[@]}"; do fuzz_one "$target" "$seconds"; done
 }
 
-# Built without precompiled headers, so that each source includes what it uses.
 run_threads() {
   [[ -f $tsan_build/build.ninja ]] ||
     CC="$cache gcc" CXX="$cache g++" meson setup "$tsan_build" "$root" -Dwerror=true \
-      -Dcuda=disabled -Db_pch=false -Db_sanitize=thread -Doptimization=1 -Db_lundef=false >/dev/null
+      -Dcuda=disabled -Db_sanitize=thread -Doptimization=1 -Db_lundef=false >/dev/null
   ninja -C "$tsan_build" tests/stress/stress >/dev/null
   local stress=("$tsan_build/tests/stress/stress")
   export TSAN_OPTIONS=halt_on_error=1:history_size=4:second_deadlock_stack=1

@@ -44,7 +44,7 @@ check_names() {  # PROGRAM PATTERN...
 }
 
 check() {  # NAME FILTER
-  local name=$1 log=$folder/$1.log status=0
+  local name=$1 log=$folder/$1${GTEST_SHARD_INDEX:-}.log status=0
   valgrind --tool=memcheck --quiet --leak-check=no --error-exitcode=20 --num-callers=20 \
     --fair-sched=try "$build/tests/$name/$name-tests" --gtest_filter="$2" >"$log" 2>&1 || status=$?
   local passed
@@ -60,8 +60,11 @@ check() {  # NAME FILTER
 check_names "$build/tests/core/core-tests" "${left_out_of_core[@]}"
 check_names "$build/tests/gst/gst-tests" "${gst[@]}"
 # Side by side, for valgrind runs one thread of a process at a time.
+core_filter=-$(join "${left_out_of_core[@]}")
+GTEST_TOTAL_SHARDS=2 GTEST_SHARD_INDEX=0 check core "$core_filter" &
+running=$!
 status=0
-check core "-$(join "${left_out_of_core[@]}")" &
+GTEST_TOTAL_SHARDS=2 GTEST_SHARD_INDEX=1 check core "$core_filter" || status=1
 check gst "$(join "${gst[@]}")" || status=1
-wait $! || status=1
+wait "$running" || status=1
 exit "$status"
