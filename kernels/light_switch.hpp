@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Counterpart of core/background/light_switch.hpp. Maps follow from two histograms of 256 levels,
-// one level after the other: rg::background::matchLevels, on the host.
+// Counterpart of core/background/light/light_switch.hpp. Maps follow from two histograms of 256
+// levels, one level after the other: rg::background::matchLevels, on the host.
 #pragma once
 
-#include "core/background/light_switch.hpp"
+#include "core/background/light/light_switch.hpp"
 #include "kernels/consensus_background.hpp"
 #include "kernels/launch.hpp"
 #include "kernels/views.hpp"

@@ -10,16 +10,6 @@
 namespace rg::gpu::background {
 namespace {
 
-/// Bits of one word that `isChosen` is true for, looked at by a warp.
-template <class Choice>
-__device__ uint64_t chooseBits(uint64_t bits, Point word, const Choice& isChosen) {
-  const int lane = static_cast<int>(threadIdx.x);
-  const auto at = [&](int column) {
-    return (bits >> column & 1) != 0 && isChosen(Point{word.x * kWordColumns + column, word.y});
-  };
-  return packWord(at(lane), at(lane + kWarp));
-}
-
 /// The mask and the faint pixels near it that no weak shadow explains.
 __global__ void addCandidates(const __grid_constant__ Planes picture,
                               const __grid_constant__ ModelView model, BitView faint, BitView mask,

@@ -45,6 +45,8 @@
   X(shiftPicture, rg::background::shiftPicture, rg::gpu::background::shiftPicture)          \
   X(countApart, rg::background::countApart, rg::gpu::background::countApart)                \
   X(relight, rg::background::relight, rg::gpu::background::relight)                         \
+  X(sumGains, rg::background::sumGains, rg::gpu::background::sumGains)                      \
+  X(mapLevels, rg::background::mapLevels, rg::gpu::background::mapLevels)                   \
   X(paintForeground, rg::background::paintForeground, rg::gpu::background::paintForeground) \
   X(train, rg::background::train, rg::gpu::background::train)                               \
   X(finishTraining, rg::background::finishTraining, rg::gpu::background::finishTraining)    \

@@ -43,4 +43,14 @@ __device__ inline uint64_t packWord(bool low, bool high) {
   return lower | upper << kWarp;
 }
 
+/// Bits of one word that `isChosen` is true for, looked at by a warp.
+template <class Choice>
+__device__ inline uint64_t chooseBits(uint64_t bits, Point word, const Choice& isChosen) {
+  const int lane = static_cast<int>(threadIdx.x);
+  const auto at = [&](int column) {
+    return (bits >> column & 1) != 0 && isChosen(Point{word.x * kWordColumns + column, word.y});
+  };
+  return packWord(at(lane), at(lane + kWarp));
+}
+
 }  // namespace rg::gpu

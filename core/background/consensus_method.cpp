@@ -13,6 +13,7 @@ namespace {
 constexpr int kUsualThreshold = 5;  ///< Grey levels that the darkest pixel may be off.
 constexpr int kLeastThreshold = 2;  ///< Where the scene has little contrast.
 constexpr int kBrightness = 20;     ///< Of 256: share of the brightness that is added to it.
+constexpr int kLearntGain = 50;     ///< The model learns a 50th of the gain as it is.
 constexpr int kMajority = 115;      ///< Of 256: share of foreground that keeps a pixel.
 
 /// Grey levels between the darkest and the brightest of a scene on a common day, but for a 64th of
@@ -45,6 +46,7 @@ class ConsensusMethod final : public MethodModel {
   void start(const MethodJob& job, Foreground& out);
   void followContrast(const MethodJob& job);
   [[nodiscard]] Tolerance toleranceOf(const MethodJob& job) const;
+  void followExposure(const MethodJob& job, uint64_t differing);
   bool isTooDark(const MethodJob& job, Foreground& out);
   void watch(const MethodJob& job, uint64_t differing, Foreground& out);
   SceneEvent followCamera(const MethodJob& job);
@@ -70,6 +72,7 @@ class ConsensusMethod final : public MethodModel {
   int contrast_ = kFullContrast;
   int64_t litFrames_ = INT32_MAX;  ///< Since the light was switched.
   bool isDark_ = false;
+  int gain_ = kSameGain;          ///< The camera's, against the model's.
   Point shift_;                   ///< The camera's, from the model.
   SmoothPicture spare_;           ///< For shifting.
   uint32_t calmFrames_ = 0;       ///< Since the camera was off its place.
@@ -91,6 +94,7 @@ void ConsensusMethod::start(const MethodJob& job, Foreground& out) {
   clear(still_);
   frame_ = {};
   shift_ = {};
+  gain_ = kSameGain;
   offFrames_ = elsewhereFrames_ = 0;
   out.status = Status::Training;
   out.mask.fill(kBackgroundPixel);
@@ -116,6 +120,20 @@ Tolerance ConsensusMethod::toleranceOf(const MethodJob& job) const {
   return {std::max(share(kUsualThreshold), kLeastThreshold), share(kBrightness)};
 }
 
+/// A gain that goes slowly enough is the camera's, and taken back, but for what the model learns.
+void ConsensusMethod::followExposure(const MethodJob& job, uint64_t differing) {
+  const auto pixels = static_cast<uint64_t>(smooth_.size().area());
+  if (gain_ == kSameGain && differing * 256 < pixels * kOddShare) return;
+  const int seen = job.on.findGain(smooth_, model_);
+  const int learnt = kSameGain / kLearntGain;
+  const int wanted = std::clamp(kSameGain, seen - learnt, seen + learnt);
+  const int step = std::max<int>(1, gain_ / static_cast<int>(job.clock.frames(1.0)));
+  gain_ = std::clamp(wanted, gain_ - step, gain_ + step);
+  if (gain_ == kSameGain) return;
+  job.on.mapLevels(withoutGain(gain_), smooth_);
+  job.on.judge(smooth_, model_, toleranceOf(job), verdicts_);
+}
+
 /// In the dark there is nothing to be told from noise, and nothing to be learnt.
 bool ConsensusMethod::isTooDark(const MethodJob& job, Foreground& out) {
   const bool wasDark = isDark_;
@@ -123,6 +141,7 @@ bool ConsensusMethod::isTooDark(const MethodJob& job, Foreground& out) {
   if (isDark_ != wasDark) out.scene.event = isDark_ ? SceneEvent::TooDark : SceneEvent::BrightAgain;
   out.scene.isDark = isDark_;
   if (!isDark_) return false;
+  gain_ = kSameGain;
   if (model_.channels == 0) out.status = Status::Training;
   out.mask.fill(kBackgroundPixel);
   return true;
@@ -263,10 +282,14 @@ void ConsensusMethod::segment(const MethodJob& job, Foreground& out) {
   ++litFrames_;
   job.on.smoothAndJudge(*job.picture, model_, toleranceOf(job), {smooth_, verdicts_});
   const auto pixels = static_cast<uint64_t>(smooth_.size().area());
+  followExposure(job, job.on.countSet(verdicts_.raw));
   const uint64_t differing = job.on.countSet(verdicts_.raw);
   if ((isDark_ || differing * 256 >= pixels * kLightShare) && isTooDark(job, out)) return;
   watch(job, differing, out);
-  if (startsAnew(out.scene.event)) return start(job, out);
+  if (startsAnew(out.scene.event)) {
+    job.on.smooth(*job.picture, smooth_);
+    return start(job, out);
+  }
   clean(job);
   dissolveGhosts(job);
   learnFrame(job);

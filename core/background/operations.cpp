@@ -85,6 +85,14 @@ void Operations::relight(const LevelMaps& maps, ConsensusBackground& model) {
   background::relight(maps, executor_, model);
 }
 
+int Operations::findGain(const SmoothPicture& picture, const ConsensusBackground& model) {
+  return medianGain(sumGains(picture, model));
+}
+
+void Operations::mapLevels(const LevelMap& map, SmoothPicture& picture) {
+  background::mapLevels(map, executor_, picture);
+}
+
 void Operations::keepMajority(const BitMask& mask, int radius, int share, BitMask& out) {
   background::keepMajority(mask, radius, share, executor_, cleaning_, out);
 }

@@ -7,7 +7,8 @@
 #include "core/background/ghosts/displaced_things.hpp"
 #include "core/background/ghosts/ghosts.hpp"
 #include "core/background/ghosts/mask_contour.hpp"
-#include "core/background/light_switch.hpp"
+#include "core/background/light/exposure.hpp"
+#include "core/background/light/light_switch.hpp"
 #include "core/background/mask_cleaning.hpp"
 #include "core/background/models/consensus_background.hpp"
 #include "core/background/shadows/cast_shadows.hpp"
@@ -62,6 +63,8 @@ class Operations {
                               const LevelMaps& maps, const ConsensusBackground& model,
                               const Tolerance& tolerance);
   virtual void relight(const LevelMaps& maps, ConsensusBackground& model);
+  virtual int findGain(const SmoothPicture& picture, const ConsensusBackground& model);
+  virtual void mapLevels(const LevelMap& map, SmoothPicture& picture);
 
   // Masks.
   virtual void keepMajority(const BitMask& mask, int radius, int share, BitMask& out);

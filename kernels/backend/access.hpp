@@ -124,6 +124,12 @@ class Access {
     picture.channels = channels;
     return write(picture.planes, size, channels);
   }
+  [[nodiscard]] PlaneTargets change(rg::background::SmoothPicture& picture) const {
+    PlaneTargets views{{}, picture.channels};
+    for (int c = 0; c < picture.channels; ++c)
+      views.planes[c] = picture.planes[at(c)].changeOn(device_);
+    return views;
+  }
   [[nodiscard]] Planes read(const rg::background::ShownModel& planes, int channels) const {
     Planes views{{}, channels};
     for (int c = 0; c < channels; ++c) views.planes[c] = planes[at(c)].readOn(device_);

@@ -5,6 +5,7 @@
 #include "kernels/bit_mask.hpp"
 #include "kernels/cast_shadows.hpp"
 #include "kernels/displaced_things.hpp"
+#include "kernels/exposure.hpp"
 #include "kernels/ghosts.hpp"
 #include "kernels/histogram.hpp"
 #include "kernels/light_switch.hpp"
@@ -21,20 +22,12 @@
 namespace rg::gpu::background {
 namespace {
 
-using rg::background::ConsensusBackground;
-using rg::background::ConsensusRate;
-using rg::background::ContourSums;
-using rg::background::FaintEvidence;
-using rg::background::JudgedPicture;
-using rg::background::LevelMaps;
-using rg::background::LitPoints;
-using rg::background::ShiftedSums;
-using rg::background::ShownModel;
-using rg::background::SmoothPicture;
-using rg::background::StillPixels;
-using rg::background::Tolerance;
-using rg::background::Verdicts;
-using rg::background::VividPoints;
+using rg::background::ConsensusBackground, rg::background::ConsensusRate;
+using rg::background::ContourSums, rg::background::FaintEvidence, rg::background::GainSums;
+using rg::background::JudgedPicture, rg::background::LevelMap, rg::background::LevelMaps;
+using rg::background::LitPoints, rg::background::ShiftedSums, rg::background::ShownModel;
+using rg::background::SmoothPicture, rg::background::StillPixels, rg::background::Tolerance;
+using rg::background::Verdicts, rg::background::VividPoints;
 using Cpu = rg::background::Operations;
 
 class GpuOperations final : public Cpu, private Dispatcher {
@@ -182,6 +175,15 @@ class GpuOperations final : public Cpu, private Dispatcher {
   void relight(const LevelMaps& maps, ConsensusBackground& model) override {
     run([&] { background::relight(maps, on().change(model), stream()); },
         [&] { Cpu::relight(maps, model); }, Changes{model});
+  }
+  int findGain(const SmoothPicture& picture, const ConsensusBackground& model) override {
+    return medianGain(ask<GainSums>(
+        [&](GainSums* sums) { sumGains(on().read(picture), on().read(model), sums, stream()); },
+        [&] { return rg::background::sumGains(picture, model); }, Reads{picture}, Reads{model}));
+  }
+  void mapLevels(const LevelMap& map, SmoothPicture& picture) override {
+    run([&] { background::mapLevels(map, on().change(picture), stream()); },
+        [&] { Cpu::mapLevels(map, picture); }, Changes{picture});
   }
 
   void keepMajority(const BitMask& mask, int radius, int share, BitMask& out) override {

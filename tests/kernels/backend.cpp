@@ -37,11 +37,13 @@ const background::Params kQuick = [] {
   return params;
 }();
 
-/// A walker that stops, light, a push, night: every decision of the method is taken.
+/// A walker that stops, a push, a gain that hunts, light, night: every decision of the method is
+/// taken.
 Take takeAt(int frame) {
   Take take;
   if (frame >= 2) take.walker = walkerAt(std::min(frame - 2, 40));
   if (frame >= 30 && frame < 34) take.push = {3, 2};
+  if (frame >= 40 && frame < 60) take.gainPercent = 100 + 2 * std::min(frame - 40, 60 - frame);
   if (frame >= 60) take.gainPercent = 160;
   if (frame >= 75) take.gainPercent = frame < 80 ? 4 : 160;
   take.isGrey = frame >= 90;

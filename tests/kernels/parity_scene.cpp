@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "core/background/light_switch.hpp"
+#include "core/background/light/exposure.hpp"
+#include "core/background/light/light_switch.hpp"
 #include "core/background/scene_watch.hpp"
+#include "kernels/exposure.hpp"
 #include "kernels/light_switch.hpp"
 #include "kernels/scene_watch.hpp"
 #include "tests/kernels/masks.hpp"
@@ -111,6 +113,31 @@ void parity_relight() {
     gpu::background::relight(maps, model.view(), nullptr);
     background::relight(maps, oneThread(), scene.model);
     model.expect(scene.model);
+  });
+}
+
+void parity_sumGains() {
+  forScenes(2, [](const LearntScene& scene) {
+    DevicePlanes smooth(scene.smooth.planes, scene.smooth.channels);
+    DeviceModel model(scene.model);
+    const background::GainSums expected = background::sumGains(scene.smooth, scene.model);
+    background::GainSums sums;
+    gpu::background::sumGains(smooth, model.view(), &sums, nullptr);
+    for (int i = 0; i < background::GainSums::kGains; ++i)
+      ASSERT_EQ(sums.weight[i], expected.weight[i]) << i;
+  });
+}
+
+void parity_mapLevels() {
+  forScenes(1, [](const LearntScene& scene) {
+    for (const background::LevelMap& map : someMaps()) {
+      background::SmoothPicture mapped;
+      background::smooth(scene.picture, oneThread(), mapped);
+      background::mapLevels(map, oneThread(), mapped);
+      DevicePlanes picture(scene.smooth.planes, scene.smooth.channels);
+      gpu::background::mapLevels(map, picture, nullptr);
+      picture.expect(mapped.planes, "mapped");
+    }
   });
 }
 

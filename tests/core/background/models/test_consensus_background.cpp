@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/background/ghosts/ghosts.hpp"
-#include "core/background/light_switch.hpp"
+#include "core/background/light/light_switch.hpp"
 #include "core/background/models/consensus_background.hpp"
 #include "core/base/pixel.hpp"
 #include "tests/core/simd_targets.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "core/background/light_switch.hpp"
+#include "core/background/light/light_switch.hpp"
 
 #include "core/base/pixel.hpp"
 

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The camera's own gain, which hunts: how much brighter than the model the picture is as a whole,
+// told from a grid of points, and the picture as the model's exposure would show it.
+//
+// Determinism: integer sums over fixed points; everything else is per pixel.
+#pragma once
+
+#include "core/background/light/light_switch.hpp"
+#include "core/background/models/consensus_background.hpp"
+#include "core/base/memory/executor.hpp"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace rg::background {
+
+/// What a picture's levels are multiplied by, in 1/512.
+inline constexpr int kSameGain = 512;
+inline constexpr int kMostGain = 2 * kSameGain, kLeastGain = kSameGain / 2;
+
+/// By how much points of a grid are brighter than the model.
+struct GainSums {
+  static constexpr int kGains = kMostGain + 2;
+  static constexpr int kDark = 16, kClipped = 250;  ///< Grey levels that tell no gain.
+  uint32_t weight[kGains] = {};  ///< Grey levels of the model, of up to 2^16 points.
+
+  [[nodiscard]] static constexpr bool tells(int shown, int modelled) {
+    return std::min(shown, modelled) >= kDark && std::max(shown, modelled) <= kClipped;
+  }
+  [[nodiscard]] static constexpr int gainOf(int shown, int modelled) {
+    return std::min(kGains - 1, (shown * kSameGain + modelled / 2) / modelled);
+  }
+};
+[[nodiscard]] GainSums sumGains(const SmoothPicture& picture, const ConsensusBackground& model);
+
+/// The median by weight; kSameGain out of bounds or unless half has about that gain: light that
+/// comes from somewhere is none.
+[[nodiscard]] int medianGain(const GainSums& sums);
+
+/// Takes the gain back. A clipped level may be anything above what it would be without.
+[[nodiscard]] LevelMap withoutGain(int gain);
+
+/// Puts every level of the picture through the map.
+void mapLevels(const LevelMap& map, const Executor& executor, SmoothPicture& picture);
+
+}  // namespace rg::background
