@@ -14,6 +14,7 @@
 #include "kernels/components.hpp"
 #include "kernels/consensus_background.hpp"
 #include "kernels/displaced_things.hpp"
+#include "kernels/exposure.hpp"
 #include "kernels/gaussian_background.hpp"
 #include "kernels/ghosts.hpp"
 #include "kernels/haar_cascade.hpp"
