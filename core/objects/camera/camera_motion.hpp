@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// How the picture of what stands still has moved since the previous frame: a homography, which a
+// camera that turns, zooms or passes a plane makes of it.
+//
+// Determinism: integers; each place depends on the nine numbers alone.
+#pragma once
+
+#include "core/base/geometry.hpp"
+#include "core/base/pixel.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+namespace rg::objects {
+
+/// From a place in this frame to the one where the same was in the previous frame.
+class CameraMotion {
+ public:
+  static constexpr int kBits = 30;
+  static constexpr int64_t kOne = int64_t{1} << kBits;
+  static constexpr int kPlaceBits = 8;   ///< Places are told in 1/256 px,
+  static constexpr int kMotionBits = 4;  ///< motions in 1/16 px.
+
+  /// previous · w = (m0 x + m1 y + m2, m3 x + m4 y + m5), w = m6 x + m7 y + m8, all in 1/kOne, of
+  /// places in pixels from `origin`.
+  using Matrix = std::array<int64_t, 9>;
+
+  CameraMotion() = default;
+  /// The same everywhere, in 1/16 px.
+  explicit constexpr CameraMotion(Point motion)
+      : matrix_{kOne, 0,    -(int64_t{motion.x} << (kBits - kMotionBits)),
+                0,    kOne, -(int64_t{motion.y} << (kBits - kMotionBits)),
+                0,    0,    kOne} {}
+  /// w has to be above kOne / 4 all over the frame.
+  constexpr CameraMotion(const Matrix& matrix, Point origin) : matrix_(matrix), origin_(origin) {}
+
+  /// Whether all that is computed with it fits.
+  [[nodiscard]] constexpr bool isSafe() const {
+    const auto isWithin = [](int64_t value, int bits) {
+      return value >= -(int64_t{1} << bits) && value <= int64_t{1} << bits;
+    };
+    const auto rowFits = [&](size_t row) {
+      return isWithin(matrix_[row], kBits + 2) && isWithin(matrix_[row + 1], kBits + 2) &&
+             isWithin(matrix_[row + 2], kBits + 16);
+    };
+    return rowFits(0) && rowFits(3) && isWithin(matrix_[6], kBits) && isWithin(matrix_[7], kBits) &&
+           matrix_[8] == kOne && isWithin(origin_.x, 14) && isWithin(origin_.y, 14);
+  }
+  [[nodiscard]] constexpr const Matrix& matrix() const { return matrix_; }
+  [[nodiscard]] constexpr Point origin() const { return origin_; }
+  /// Whether all places move alike.
+  [[nodiscard]] constexpr bool isUniform() const {
+    return matrix_[0] == kOne && matrix_[4] == kOne && matrix_[8] == kOne && matrix_[1] == 0 &&
+           matrix_[3] == 0 && matrix_[6] == 0 && matrix_[7] == 0;
+  }
+  /// The same, by whole sixteenths of a pixel.
+  [[nodiscard]] constexpr bool isShift() const {
+    constexpr int64_t kRest = (int64_t{1} << (kBits - kMotionBits)) - 1;
+    return isUniform() && (matrix_[2] & kRest) == 0 && (matrix_[5] & kRest) == 0;
+  }
+  /// Where pixel (x, y) was, in 1/256 px. Beyond ±2^14 all is as it is there: 2^30 · 2^15 · 2^8
+  /// fit.
+  [[nodiscard]] constexpr Point before(int x, int y) const {
+    const int64_t u = bounded(x) - origin_.x, v = bounded(y) - origin_.y;
+    // What lies far outside of the frame may be anywhere.
+    const int64_t w = std::max(matrix_[6] * u + matrix_[7] * v + matrix_[8], kOne / 4);
+    const auto along = [&](size_t row, int origin) {
+      const int64_t at = matrix_[row] * u + matrix_[row + 1] * v + matrix_[row + 2];
+      return static_cast<int>((int64_t{origin} << kPlaceBits) +
+                              divideRounded(at * (1 << kPlaceBits), w));
+    };
+    return {along(0, origin_.x), along(3, origin_.y)};
+  }
+  /// By how much what is at (x, y) has moved, in 1/16 px.
+  [[nodiscard]] constexpr Point at(int x, int y) const {
+    const Point was = before(x, y);
+    constexpr int kUnit = 1 << (kPlaceBits - kMotionBits);
+    return {static_cast<int>(divideRounded((bounded(x) << kPlaceBits) - was.x, kUnit)),
+            static_cast<int>(divideRounded((bounded(y) << kPlaceBits) - was.y, kUnit))};
+  }
+  friend constexpr bool operator==(const CameraMotion&, const CameraMotion&) = default;
+
+ private:
+  [[nodiscard]] static constexpr int64_t bounded(int place) {
+    return std::clamp(place, -(1 << 14), 1 << 14);
+  }
+
+  Matrix matrix_{kOne, 0, 0, 0, kOne, 0, 0, 0, kOne};
+  Point origin_;
+};
+
+}  // namespace rg::objects
