@@ -105,7 +105,8 @@ run_plain() {
   ninja -C "$plain_build" tests/core/core-tests tests/gst/gst-tests tests/accuracy/scenes >/dev/null
   "$plain_build/tests/core/core-tests" --gtest_brief=1 \
     --gtest_filter='-*Targets*:*AnHourIfAsked'
-  meson test -C "$plain_build" --no-rebuild --print-errorlogs --timeout-multiplier 10 gst
+  meson test -C "$plain_build" --no-rebuild --print-errorlogs --timeout-multiplier 10 \
+    'gst, half 0' 'gst, half 1'
   "$plain_build/tests/accuracy/scenes" --pan --seeds 1:2 --gate 2
 }
 
