@@ -32,37 +32,6 @@ struct Inputs {
   const OwnMotionRules& rules;
 };
 
-/// expected(x) = previous(x − shift), between its pixels linearly; at the border it repeats.
-void warp(ImageView<const uint8_t> previous, const motion::RegionMotion& shift,
-          const Executor& executor, Image<uint8_t>& expected) {
-  const auto wholeOf = [](int v) {
-    return -((v + motion::kMotionUnit - 1) >> motion::kMotionFractionBits);
-  };
-  const auto partOf = [&](int v) { return -v - wholeOf(v) * motion::kMotionUnit; };
-  const int dx = wholeOf(shift.dx), dy = wholeOf(shift.dy);
-  const int u = partOf(shift.dx), v = partOf(shift.dy);
-  const int width = previous.width(), height = previous.height();
-  const int first = std::clamp(-dx, 0, width), last = std::clamp(width - 1 - dx, first, width);
-  expected.resize(previous.size);
-  executor.forRows(height, [&](int begin, int end) {
-    for (int y = begin; y < end; ++y) {
-      const uint8_t* above = previous.row(std::clamp(y + dy, 0, height - 1));
-      const uint8_t* below = previous.row(std::clamp(y + dy + 1, 0, height - 1));
-      uint8_t* to = expected.row(y);
-      const auto repeatBorder = [&](int from, int until, int column) {
-        const uint8_t sides[] = {above[column], above[column], below[column], below[column]};
-        if (from == until) return;
-        rg::simd::warpRow({sides, sides + 2, u, v}, 1, to + from);
-        std::fill(to + from + 1, to + until, to[from]);
-      };
-      repeatBorder(0, first, 0);
-      if (first < last)
-        rg::simd::warpRow({above + first + dx, below + first + dx, u, v}, last - first, to + first);
-      repeatBorder(last, width, width - 1);
-    }
-  });
-}
-
 Point shiftBeyond(const motion::RegionMotion& m, const motion::RegionMotion& camera) {
   return {static_cast<int>(divideRounded(m.dx - camera.dx, motion::kMotionUnit)),
           static_cast<int>(divideRounded(m.dy - camera.dy, motion::kMotionUnit))};
@@ -225,7 +194,8 @@ void findOwnMotion(const motion::Motion& motion, ImageView<const uint8_t> previo
     s.hidden.resize(motion.size);
     s.hidden.fill(segmentation::kNoRegion);
   }
-  warp(previous, rules.camera, executor, s.expected);
+  warpByCamera(previous, CameraMotion(Point{rules.camera.dx, rules.camera.dy}), executor,
+               s.expected);
   for (int round = 0; round < kOwnRounds; ++round) {
     measure(in, own, s);
     measureNoise(s);

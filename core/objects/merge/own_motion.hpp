@@ -22,6 +22,7 @@
 #include "core/base/memory/executor.hpp"
 #include "core/base/memory/image.hpp"
 #include "core/motion/motion.hpp"
+#include "core/objects/camera/camera_warp.hpp"
 #include "core/objects/merge/mrf_merge.hpp"
 
 #include <array>
@@ -53,7 +54,7 @@ struct OwnMotionScratch {
     Sums sums;          ///< Of the bands that are not left out.
     uint64_t seen = 0;  ///< Pixels of all bands.
   };
-  Image<uint8_t> expected;     ///< The previous frame as the camera's motion moves it.
+  ExpectedFrame expected;      ///< The previous frame as the camera's motion moves it.
   Image<uint16_t> hidden;      ///< Its pixels that a mover covered: the label of that, else 0;
                                ///< all 0 between measurements.
   std::vector<uint8_t> moves;  ///< Of each region, the guess.

@@ -119,8 +119,8 @@ class Comparison {
     isCompared_ = y >= rows_.first && y < rows_.last && (y - box_.y) % s_.everyRow == 0;
     if (!isCompared_) return;
     now_ = luma_.row(y);
-    still_ = s_.expected.row(y);
-    moved_ = s_.expected.row(y - shift_.y);
+    still_ = s_.expected.luma.row(y);
+    moved_ = s_.expected.luma.row(y - shift_.y);
     hidden_ = s_.hidesAny ? s_.hidden.row(y) : nullptr;
     if (isAcross_) band_ = kBands * (y - box_.y) / box_.height;
   }
