@@ -59,8 +59,9 @@ Parallax::Support Parallax::supportOf(const Epipole& epipole, int side) {
   double sum = 0, x = 0, y = 0, xx = 0, yy = 0;
   for (size_t i = 0; i < cells_.size(); ++i) {
     const double weight = std::min(cells_[i] / most, 1.0);
+    const size_t row = i / kColumns;
     const double cx = (double(i % kColumns) + .5) / kColumns;
-    const double cy = (double(i / kColumns) + .5) / kRows;
+    const double cy = (double(row) + .5) / kRows;
     sum += weight;
     x += weight * cx;
     y += weight * cy;
