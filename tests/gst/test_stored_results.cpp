@@ -107,7 +107,7 @@ TEST(StoredResults, ThatContradictEachOtherAreNotJoined) {
   EXPECT_FALSE(join(objects, std::make_shared<motion::Motion>(motion)));
 }
 
-/// Where gdppay and gdpdepay carry no metas at all, as those of GStreamer 1.22, they lose
+/// Where gdppay and gdpdepay carry no metas at all, as those of GStreamer 1.22 to 1.26, they lose
 /// GStreamer's own, too.
 TYPED_TEST(StoredResult, GoesThroughGdpWhereThatTakesMetas) {
   GstElementFactory* factory = gst_element_factory_find("gdppay");
