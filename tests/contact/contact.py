@@ -188,10 +188,14 @@ def check_analytics_consumer():
     """Debian 13's objectdetectionoverlay draws what it reads of GstAnalytics."""
     if not has('objectdetectionoverlay'):
         return
-    drawn = [shell(f'{SOURCE} ! regiontrack ! videoconvert ! video/x-raw,format=BGRA ! {element} ! '
-                   f'filesink location=drawn.raw && md5sum drawn.raw').splitlines()[-1]
-             for element in ('identity', 'objectdetectionoverlay')]
-    if drawn[0] == drawn[1]:
+    plain, unseen, seen = [
+        shell(f'{SOURCE} {stages} ! videoconvert ! video/x-raw,format=BGRA {drawing} ! '
+              f'filesink location=drawn.raw && md5sum drawn.raw').splitlines()[-1]
+        for stages, drawing in (('', ''), ('', '! objectdetectionoverlay'),
+                                ('! regiontrack', '! objectdetectionoverlay'))]
+    if unseen != plain:
+        fail('objectdetectionoverlay draws what nobody found')
+    if seen == plain:
         fail('objectdetectionoverlay sees no objects')
 
 
