@@ -4,6 +4,7 @@
 #include <gst/analytics/analytics.h>
 
 #include <algorithm>
+#include <new>
 #include <utility>
 
 namespace rg {
@@ -18,22 +19,30 @@ auto find(List& list, uint64_t number) {
 
 }  // namespace
 
-/// Numbers begin anew with a stream, and then times may too.
+/// Numbers begin anew with a stream, and then times may too. Where there is no memory, a frame goes
+/// on without detections: its objects are tracked already.
 void Detections::begin(GstBuffer* buffer, const objects::Objects& objects) {
-  buffer_ = buffer;
   const GstClockTime now = GST_BUFFER_PTS(buffer);
-  std::swap(seen_, before_);
-  seen_.clear();
-  for (const objects::Object& object : objects.objects) {
-    const Seen* before = find(before_, object.id);
-    const bool isKnown = before && object.ageFrames > 1 && before->first <= now;
-    seen_.push_back({object.id, isKnown ? before->first : now, 0});
+  buffer_ = nullptr;
+  next_.clear();
+  try {
+    next_.reserve(objects.objects.size());
+  } catch (const std::bad_alloc&) {
+    for (Seen& seen : seen_) seen.detection = 0;
+    return;
   }
+  for (const objects::Object& object : objects.objects) {
+    const Seen* before = find(seen_, object.id);
+    const bool isKnown = before && object.ageFrames > 1 && before->first <= now;
+    next_.push_back({object.id, isKnown ? before->first : now, 0});
+  }
+  std::swap(seen_, next_);
+  buffer_ = buffer;
 }
 
 void Detections::add(const objects::Object& object, GQuark type, const Box& box) {
   Seen* seen = find(seen_, object.id);
-  if (!seen) return;
+  if (!buffer_ || !seen) return;
   GstAnalyticsRelationMeta* meta = gst_buffer_get_analytics_relation_meta(buffer_);
   if (!meta) meta = gst_buffer_add_analytics_relation_meta(buffer_);
   GstAnalyticsODMtd detection;

@@ -30,8 +30,9 @@ class Detections {
   };
 
   /// By number: of all objects that live, told or not.
-  std::vector<Seen> seen_, before_;
-  [[maybe_unused]] GstBuffer* buffer_ = nullptr;  ///< Not where there is no GstAnalytics.
+  std::vector<Seen> seen_, next_;
+  /// That gets detections; null also where there is no memory or no GstAnalytics for them.
+  [[maybe_unused]] GstBuffer* buffer_ = nullptr;
 };
 
 /// Adds a detection by itself; its number on this frame, which may be 0, or 0 where there are none.

@@ -2,6 +2,7 @@
 // Objects as GstAnalytics knows them; built where GStreamer has it.
 #include "gst/support/class_metas.hpp"
 #include "gst/support/roi_metas.hpp"
+#include "tests/support/failing_new.hpp"
 #include "tests/support/harness.hpp"
 #include "tests/support/results.hpp"
 
@@ -98,6 +99,25 @@ TEST(Detections, OfAnotherStreamBeginAnew) {
   const Box box{5, 6, 20, 10};
   tell(metas, 9, {testing::object(1, box)});
   EXPECT_EQ(tell(metas, 2, {testing::object(1, box)}).at(1).first, 80 * GST_MSECOND);
+}
+
+TEST(Detections, AreLeftOutOfAFrameThatThereIsNoMemoryFor) {
+  RoiMetas metas;
+  const Box box{5, 6, 20, 10};
+  tell(metas, 0, {testing::object(7, box, objects::ObjectState::New)});
+  const BufferPtr buffer = frameAt(1);
+  const GstVideoInfo info = kCaps.info();
+  const auto list = testing::objects(kSize, {testing::object(7, box), testing::object(8, box)});
+  {
+    const testing::FailingNew fail(0);
+    metas.add(buffer.get(), info, *list);
+    EXPECT_TRUE(fail.hasFailed());
+  }
+  EXPECT_TRUE(toldOf(buffer.get()).empty());
+  EXPECT_EQ(gst_buffer_get_n_meta(buffer.get(), GST_VIDEO_REGION_OF_INTEREST_META_API_TYPE), 2u);
+  const auto told = tell(metas, 2, {testing::object(7, box), testing::object(8, box)});
+  EXPECT_EQ(told.at(7).first, 0u);
+  EXPECT_EQ(told.at(8).first, 80 * GST_MSECOND);
 }
 
 TEST(Detections, NameTheParentThatIsOnTheFrame) {
