@@ -45,7 +45,8 @@ grep -q '"objects":\[{' "$chroot/contact/stages.jsonl" ||
 echo 'contact: all packages'
 extra=()
 [[ $suite == bookworm ]] || extra+=(libgstreamer-plugins-bad1.0-dev)
-install_there $(cd "$chroot" && printf '/%s\n' packages/*.deb) \
+# Of what the packages suggest, haardetect's launch line needs the cascades of opencv-data.
+install_there $(cd "$chroot" && printf '/%s\n' packages/*.deb) opencv-data \
   xvfb xauth gstreamer1.0-x g++ pkgconf python3 python3-gi python3-numpy gir1.2-gstreamer-1.0 \
   gir1.2-gst-plugins-base-1.0 gir1.2-gst-rtsp-server-1.0 gstreamer1.0-tools \
   gstreamer1.0-plugins-base gstreamer1.0-plugins-good gstreamer1.0-plugins-bad gstreamer1.0-libav \
