@@ -47,6 +47,7 @@ class ConsensusMethod final : public MethodModel {
   void followContrast(const MethodJob& job);
   [[nodiscard]] Tolerance toleranceOf(const MethodJob& job) const;
   void followExposure(const MethodJob& job, uint64_t differing);
+  void learnGain(const MethodJob& job);
   bool isTooDark(const MethodJob& job, Foreground& out);
   void watch(const MethodJob& job, uint64_t differing, Foreground& out);
   SceneEvent followCamera(const MethodJob& job);
@@ -121,17 +122,33 @@ Tolerance ConsensusMethod::toleranceOf(const MethodJob& job) const {
 }
 
 /// A gain that goes slowly enough is the camera's, and taken back, but for what the model learns.
+/// Where no gain is told, nothing says that it has changed.
 void ConsensusMethod::followExposure(const MethodJob& job, uint64_t differing) {
   const auto pixels = static_cast<uint64_t>(smooth_.size().area());
   if (gain_ == kSameGain && differing * 256 < pixels * kOddShare) return;
   const int seen = job.on.findGain(smooth_, model_);
-  const int learnt = kSameGain / kLearntGain;
-  const int wanted = std::clamp(kSameGain, seen - learnt, seen + learnt);
-  const int step = std::max<int>(1, gain_ / static_cast<int>(job.clock.frames(1.0)));
-  gain_ = std::clamp(wanted, gain_ - step, gain_ + step);
+  if (seen != kNoGain) {
+    const int learnt = kSameGain / kLearntGain;
+    const int wanted = std::clamp(kSameGain, seen - learnt, seen + learnt);
+    const int step = std::max<int>(1, gain_ / static_cast<int>(job.clock.frames(1.0)));
+    gain_ = std::clamp(wanted, gain_ - step, gain_ + step);
+  }
   if (gain_ == kSameGain) return;
-  job.on.mapLevels(withoutGain(gain_), smooth_);
+  if (isFar(gain_))
+    learnGain(job);
+  else
+    job.on.mapLevels(withoutGain(gain_), smooth_);
   job.on.judge(smooth_, model_, toleranceOf(job), verdicts_);
+}
+
+/// A gain that has gone far may be the light's, which goes on and does not come back: what is
+/// remembered goes along before it cannot be told any more.
+void ConsensusMethod::learnGain(const MethodJob& job) {
+  const LevelMap map = withGain(std::exchange(gain_, kSameGain));
+  job.on.relight({map, map, map}, model_);
+  SmoothPicture still{std::move(still_.colours), model_.channels};
+  job.on.mapLevels(map, still);
+  still_.colours = std::move(still.planes);
 }
 
 /// In the dark there is nothing to be told from noise, and nothing to be learnt.

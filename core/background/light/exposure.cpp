@@ -21,7 +21,7 @@ GainSums sumGains(const SmoothPicture& picture, const ConsensusBackground& model
 int medianGain(const GainSums& sums) {
   uint32_t total = 0;
   for (const uint32_t weight : sums.weight) total += weight;
-  if (total == 0) return kSameGain;
+  if (total == 0) return kNoGain;
   uint32_t below = 0;
   int gain = 0;
   while (2 * (below += sums.weight[gain]) < total) ++gain;
@@ -30,7 +30,7 @@ int medianGain(const GainSums& sums) {
   for (int i = std::max(0, gain - kNear); i <= std::min(GainSums::kGains - 1, gain + kNear); ++i)
     near += sums.weight[i];
   const bool hunts = kLeastGain <= gain && gain <= kMostGain && 2 * near >= total;
-  return hunts ? gain : kSameGain;
+  return hunts ? gain : kNoGain;
 }
 
 LevelMap withoutGain(int gain) {
@@ -42,6 +42,14 @@ LevelMap withoutGain(int gain) {
     map[static_cast<size_t>(level)] =
         static_cast<uint8_t>(std::min(255, plain + std::max(0, lost)));
   }
+  return map;
+}
+
+LevelMap withGain(int gain) {
+  LevelMap map{};
+  for (int level = 0; level < 256; ++level)
+    map[static_cast<size_t>(level)] =
+        static_cast<uint8_t>(std::min(255, (level * gain + kSameGain / 2) / kSameGain));
   return map;
 }
 

@@ -14,9 +14,15 @@
 
 namespace rg::background {
 
-/// What a picture's levels are multiplied by, in 1/512.
-inline constexpr int kSameGain = 512;
+/// What a picture's levels are multiplied by, in 1/512; kNoGain where no gain explains it.
+inline constexpr int kSameGain = 512, kNoGain = 0;
 inline constexpr int kMostGain = 2 * kSameGain, kLeastGain = kSameGain / 2;
+
+/// Half the way, as an octave goes, to where a gain is not told any more.
+[[nodiscard]] constexpr bool isFar(int gain) {
+  return gain * gain > kSameGain * kMostGain || gain * gain < kSameGain * kLeastGain;
+}
+static_assert(!isFar(kSameGain) && !isFar(724) && isFar(725) && isFar(362) && !isFar(363));
 
 /// By how much points of a grid are brighter than the model.
 struct GainSums {
@@ -33,12 +39,15 @@ struct GainSums {
 };
 [[nodiscard]] GainSums sumGains(const SmoothPicture& picture, const ConsensusBackground& model);
 
-/// The median by weight; kSameGain out of bounds or unless half has about that gain: light that
+/// The median by weight; kNoGain out of bounds or unless half has about that gain: light that
 /// comes from somewhere is none.
 [[nodiscard]] int medianGain(const GainSums& sums);
 
 /// Takes the gain back. A clipped level may be anything above what it would be without.
 [[nodiscard]] LevelMap withoutGain(int gain);
+
+/// What the levels become by the gain.
+[[nodiscard]] LevelMap withGain(int gain);
 
 /// Puts every level of the picture through the map.
 void mapLevels(const LevelMap& map, const Executor& executor, SmoothPicture& picture);
