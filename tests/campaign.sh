@@ -126,11 +126,15 @@ run_fuzz() {
   for target in "${targets[@]}"; do fuzz_one "$target" "$seconds"; done
 }
 
-run_threads() {
+build_stress() {
   [[ -f $tsan_build/build.ninja ]] ||
     CC="$cache gcc" CXX="$cache g++" meson setup "$tsan_build" "$root" -Dwerror=true \
       -Dcuda=disabled -Db_sanitize=thread -Doptimization=1 -Db_lundef=false >/dev/null
   ninja -C "$tsan_build" tests/stress/stress >/dev/null
+}
+
+run_threads() {
+  build_stress
   local stress=("$tsan_build/tests/stress/stress")
   export TSAN_OPTIONS=halt_on_error=1:history_size=4:second_deadlock_stack=1
   TSAN_OPTIONS+=:suppressions=$root/tests/tsan.supp:print_suppressions=0
@@ -198,7 +202,30 @@ if ((is_keeping)); then
   keep
   exit
 fi
-for part in "${parts[@]}"; do
-  printf '%s (%d s so far)\n' "$part" "$SECONDS"
-  "run_$part"
-done
+run_parts() {
+  local part
+  for part; do
+    printf '%s (%d s so far)\n' "$part" "$SECONDS"
+    "run_$part"
+  done
+}
+
+# What runs for hours is watched one after the other. The short parts are processes of one thread
+# each: side by side, once that is built which uses all cores by itself.
+if ((is_short && ${#parts[@]} > 1)); then
+  first=() second=()
+  for part in "${parts[@]}"; do
+    case $part in
+      fuzz) build_fuzzers; first+=("$part") ;;
+      threads) build_stress; first+=("$part") ;;
+      *) second+=("$part") ;;
+    esac
+  done
+  run_parts "${first[@]}" &
+  running=$!
+  status=0
+  (run_parts "${second[@]}") & wait "$!" || status=1
+  wait "$running" || status=1
+  exit "$status"
+fi
+run_parts "${parts[@]}"
