@@ -49,6 +49,9 @@ class Reproduce(unittest.TestCase):
             for name in pictures:
                 head = pathlib.Path(folder, 'paper-report', name).read_bytes()[:200]
                 self.assertTrue(head.startswith(b'\x89PNG') or b'<?xml' in head, name)
+            # Numbers within a decade too: its curves may lie in one.
+            phases = pathlib.Path(folder, 'paper-report', 'fig-20.svg').read_text(encoding='utf-8')
+            self.assertIn('<!-- 0.5 -->', phases)
         self.assertIn('modelled, not measured', page)
         times = [float(cell) for cell in cells_of(page, 'fig-20')
                  if re.fullmatch(r'\d+\.\d+', cell)]

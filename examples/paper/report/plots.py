@@ -4,9 +4,11 @@ import matplotlib
 
 matplotlib.use('svg')
 import matplotlib.pyplot as plt  # noqa: E402
+from matplotlib import ticker  # noqa: E402
 
 OURS, PAPERS, OTHERS = '#0b6e4f', '#c1440e', '#8a9299'
 COLOURS = ('#0b6e4f', '#2a6fbb', '#b5179e', '#e09f3e', '#5f0f40', '#577590')
+MANY_DECADES = 3e3  # From the least to the greatest value.
 plt.rcParams.update({'font.size': 9, 'svg.fonttype': 'path', 'axes.grid': True, 'grid.alpha': 0.3,
                      'axes.spines.top': False, 'axes.spines.right': False,
                      'svg.hashsalt': 'report', 'figure.constrained_layout.use': True})
@@ -25,6 +27,17 @@ def label(axes, x, y, title=None):
         axes.set_title(title, fontsize=10)
 
 
+def make_log(axes):
+    """Numbers stand at 1, 2 and 5 of each decade, as curves may lie within one; where there are
+    many, at each decade alone."""
+    axes.set_yscale('log')
+    low, high = axes.get_ylim()
+    if high / low < MANY_DECADES:
+        axes.yaxis.set_major_locator(ticker.LogLocator(subs=(1, 2, 5)))
+        axes.yaxis.set_major_formatter(ticker.StrMethodFormatter('{x:g}'))
+        axes.yaxis.set_minor_formatter(ticker.NullFormatter())
+
+
 def lines(folder, name, x, curves, labels, is_log=False, from_zero=True):
     """curves: {name: values}; values None where there are none. Names that begin with "paper" are
     drawn as the paper's, dashed."""
@@ -38,7 +51,7 @@ def lines(folder, name, x, curves, labels, is_log=False, from_zero=True):
                   color=PAPERS if curve == 'paper' else next(colours))
     label(axes, *labels)
     if is_log:
-        axes.set_yscale('log')
+        make_log(axes)
     elif from_zero:
         axes.set_ylim(bottom=0)
     axes.legend(fontsize=8, loc='upper left', bbox_to_anchor=(1.01, 1))
@@ -54,7 +67,7 @@ def panels(folder, name, x, groups, labels, is_log=False):
             axes.plot(x, values, marker='o', markersize=3.5, label=curve, color=colour)
         label(axes, labels[0], labels[1] if axes in all_axes[:, 0] else '', title)
         if is_log:
-            axes.set_yscale('log')
+            make_log(axes)
         else:
             axes.set_ylim(bottom=0)
     all_axes[0][1].legend(fontsize=8, loc='upper left', bbox_to_anchor=(1.01, 1))
