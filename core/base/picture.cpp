@@ -98,4 +98,11 @@ void Picture::load(const Frame& frame, const Executor& executor) {
   loadPlanes(frame, executor, {red_, green_, blue_, luma_});
 }
 
+Image<uint8_t>& Picture::writeGrey(Size size) {
+  isGrey_ = true;
+  luma_.resize(size);
+  luma_.writeOnHost();
+  return luma_;
+}
+
 }  // namespace rg

@@ -42,6 +42,8 @@ class Picture {
 
   /// Takes the frame's size and pixels (loadPlanes).
   void load(const Frame& frame, const Executor& executor);
+  /// A grey picture of which all pixels will be written here.
+  [[nodiscard]] Image<uint8_t>& writeGrey(Size size);
 
  private:
   bool isGrey_ = true;

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/motion/motion.hpp"
 
+#include "core/base/camera/camera_search.hpp"
 #include "core/base/memory/pool.hpp"
 #include "core/base/renewed_stage.hpp"
+#include "core/motion/camera/camera_view.hpp"
 #include "core/motion/literal_search.hpp"
 #include "core/motion/matched_blocks.hpp"
 #include "core/motion/motion_refinement.hpp"
@@ -21,10 +23,16 @@ class MotionStage final : public Stage {
 
   Result<std::shared_ptr<const Motion>> process(std::shared_ptr<const graph::Graph> graph,
                                                 const Params& params) override;
-  void reset(Reset) override { previous_.reset(); }
+  void reset(Reset) override {
+    previous_.reset();
+    camera_.reset();
+  }
 
  private:
   void match(const graph::Graph& graph, const Params& params, Motion& motion);
+  void search(const graph::Graph& graph, const Picture& before, const Params& params,
+              std::span<RegionMotion> motion);
+  void searchBeyondCamera(const graph::Graph& graph, const Params& params, Motion& motion);
   void matchLiterally(const graph::Graph& graph, int maxShift, Motion& motion);
 
   Context context_;
@@ -32,6 +40,9 @@ class MotionStage final : public Stage {
   std::shared_ptr<const Picture> previous_;
   MatchedBlocks blocks_;
   std::vector<uint8_t> isStill_;  ///< By region: none of its matched pixels has changed.
+  CameraSearch camera_;
+  CameraView view_;
+  std::vector<RegionMotion> inFrame_;  ///< Of each region, as if the camera stood still.
   PaddedLuma literalLuma_;
   std::vector<LiteralScratch> literalScratch_;
   MotionRefinement refinement_;
@@ -45,6 +56,7 @@ Result<std::shared_ptr<const Motion>> MotionStage::process(
   motion->status = Status::Skipped;
   motion->regions.assign(graph->regions.size(), {});
   motion->matchedBlocks = motion->stillBlocks = 0;
+  motion->camera = {};
   if (graph->status != Status::Skipped) {
     std::shared_ptr<const Picture> picture = graph->picture;
     if (previous_ && previous_->size() == picture->size()) {
@@ -59,19 +71,42 @@ Result<std::shared_ptr<const Motion>> MotionStage::process(
 
 void MotionStage::match(const graph::Graph& graph, const Params& params, Motion& motion) {
   const int maxShift = std::clamp(params.maxShiftPx, 1, kMostReach - 1);
+  if (graph.labels->scope == segmentation::Scope::Frame)
+    motion.camera = camera_.find(graph.picture, previous_, *context_.cpu);
   if (params.method == Method::Literal) return matchLiterally(graph, maxShift, motion);
   blocks_.find(graph, *context_.cpu);
   if (blocks_.parts().empty()) return;
-  isStill_.assign(motion.regions.size(), 0);
-  operations_->searchShifts({*graph.picture, *previous_, blocks_, maxShift},
-                            {motion.regions, isStill_});
+  if (motion.camera == CameraMotion())
+    search(graph, *previous_, params, motion.regions);
+  else
+    searchBeyondCamera(graph, params, motion);
   for (const MatchedPart& part : blocks_.parts()) {
     motion.matchedBlocks += part.pixels() / kBlockWidth;
     if (isStill_[part.label.index()] != 0) motion.stillBlocks += part.pixels() / kBlockWidth;
   }
+}
+
+void MotionStage::search(const graph::Graph& graph, const Picture& before, const Params& params,
+                         std::span<RegionMotion> motion) {
+  isStill_.assign(motion.size(), 0);
+  const int maxShift = std::clamp(params.maxShiftPx, 1, kMostReach - 1);
+  operations_->searchShifts({*graph.picture, before, blocks_, maxShift}, {motion, isStill_});
   if (params.isSubpixel)
-    refinement_.run(graph, blocks_, *previous_, operations_->previousLuma(), *context_.cpu,
-                    motion.regions);
+    refinement_.run(graph, blocks_, before, operations_->previousLuma(), *context_.cpu, motion);
+}
+
+/// In the previous frame as the camera makes it look now. Where the camera is so fast that what it
+/// follows is out of reach then, in the previous frame as it was, too.
+void MotionStage::searchBeyondCamera(const graph::Graph& graph, const Params& params,
+                                     Motion& motion) {
+  view_.show(previous_->luma(), motion.camera, *context_.cpu);
+  search(graph, view_.picture(), params, motion.regions);
+  view_.addCamera(graph, blocks_, motion.regions);
+  if (2 * view_.furthest() <= params.maxShiftPx * kMotionUnit) return;
+  inFrame_.assign(motion.regions.size(), {});
+  search(graph, *previous_, params, inFrame_);
+  for (size_t i = 0; i < inFrame_.size(); ++i)
+    if (inFrame_[i].sad < motion.regions[i].sad) motion.regions[i] = inFrame_[i];
 }
 
 void MotionStage::matchLiterally(const graph::Graph& graph, int maxShift, Motion& motion) {

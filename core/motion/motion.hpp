@@ -15,6 +15,7 @@
 // Determinism: integer sums. Tie-break: smallest (SAD, |d|², dy, dx).
 #pragma once
 
+#include "core/base/camera/camera_motion.hpp"
 #include "core/base/result.hpp"
 #include "core/base/stage.hpp"
 #include "core/graph/graph.hpp"
@@ -44,6 +45,7 @@ struct Motion {
                                     ///< with reliability 0.
   std::shared_ptr<const graph::Graph> graph;
   std::vector<RegionMotion> regions;
+  CameraMotion camera;         ///< Where all of the frame is segmented; none elsewhere.
   uint32_t matchedBlocks = 0;  ///< Of 4x1 pixels, over all regions.
   uint32_t stillBlocks = 0;    ///< Of those, in regions where no pixel changed: not searched.
 

@@ -75,10 +75,18 @@ struct Objects {
                                      ///< empty otherwise. Kept where the region is background.
   bool isCutShort = false;  ///< So many regions touch one that the search for the best groups was
                             ///< ended early (core/objects/merge/mrf_merge.hpp).
-  int32_t cameraDx = 0;     ///< Motion of the background since the previous frame, in 1/16 px.
+  CameraMotion camera;      ///< How the picture of the background moved since the previous frame,
+  int32_t cameraDx = 0;     ///< and by how much at the frame's middle, in 1/16 px.
   int32_t cameraDy = 0;
   std::vector<Event> events;
 
+  /// `size` is set.
+  void setCamera(const CameraMotion& moved) {
+    camera = moved;
+    const Point middle = moved.at(size.width / 2, size.height / 2);
+    cameraDx = middle.x;
+    cameraDy = middle.y;
+  }
   void dropSources() { motion.reset(); }
   /// The source is shared, all else is copied.
   void copyFrom(const Objects& other) {
@@ -97,6 +105,7 @@ struct Objects {
     groundGroup = other.groundGroup;
     ground = other.ground;
     isCutShort = other.isCutShort;
+    camera = other.camera;
     cameraDx = other.cameraDx;
     cameraDy = other.cameraDy;
     events = other.events;

@@ -6,6 +6,7 @@
 #include "core/base/renewed_stage.hpp"
 #include "core/base/time/time.hpp"
 #include "core/objects/merge/ground_merge.hpp"
+#include "core/objects/merge/motion_evidence.hpp"
 #include "core/objects/merge/motion_layers.hpp"
 #include "core/objects/merge/motion_trends.hpp"
 #include "core/objects/merge/mrf_merge.hpp"
@@ -60,7 +61,6 @@ class CpuObjectStage final : public Stage {
   Context context_;
   Tracker tracker_;
   MergeScratch mergeScratch_;
-  VoteScratch voteScratch_;
   std::vector<WeightedArc> arcs_;
   std::vector<uint32_t> groupOf_;        ///< Of each region, as the merging goes on.
   std::vector<TrackIndex> expected_;     ///< Of each region the track it is predicted to be.
@@ -74,6 +74,7 @@ class CpuObjectStage final : public Stage {
   std::shared_ptr<const Picture> previous_;
   OwnMotionScratch ownMotionScratch_;
   std::vector<OwnMotion> own_;  ///< Of each region, under Scope::Frame.
+  MotionEvidence moved_;        ///< What they have shown so far.
   StandingScratch standingScratch_;
   std::vector<StandingTrack> standing_;  ///< Of each region, under Scope::Frame.
   std::vector<uint8_t> isOpen_;          ///< Of each region: it may be something else than ground.
@@ -106,6 +107,7 @@ void CpuObjectStage::reset(Reset what) {
   tracker_.reset();
   previous_.reset();
   trends_.reset();
+  moved_.reset();
   hasLast_ = false;
 }
 
@@ -115,9 +117,8 @@ void CpuObjectStage::expectLabels(const graph::Graph& graph, int64_t stepNs, Obj
   objects.regionExpected.assign(graph.regions.size(), 0);
   if (tracker_.owner().empty() || evidence_.frame != graph.size) return;
   shifts_.clear();
-  const Point camera{objects.cameraDx, objects.cameraDy};
   for (const Track& track : tracker_.tracks())
-    shifts_.push_back(tracker_.expectedShift(track, camera, stepNs));
+    shifts_.push_back(tracker_.expectedShift(track, objects.camera, stepNs));
   findRegionOwners(*graph.labels, evidence_, tracker_.owner(), shifts_, ownerScratch_, expected_);
   for (size_t r = 0; r < expected_.size(); ++r)
     if (expected_[r]) objects.regionExpected[r] = trackAt(expected_[r]).id;
@@ -139,10 +140,7 @@ void CpuObjectStage::mergeRegions(const Input& in, const Params& params, int64_t
   const std::shared_ptr<const Picture> previous = std::exchange(previous_, graph.picture);
   const bool isMoving =
       graph.labels->scope == segmentation::Scope::Frame && motion.status != Status::Skipped;
-  const motion::RegionMotion camera =
-      isMoving ? dominantMotion(motion, voteScratch_) : motion::RegionMotion{};
-  objects.cameraDx = camera.dx;
-  objects.cameraDy = camera.dy;
+  if (isMoving) objects.setCamera(motion.camera);
   expectLabels(graph, stepNs, objects);
   if (params.method == Method::Literal) return mergeByEnergy(motion, weights, objects);
   const bool isStill = graph.labels->scope != segmentation::Scope::Frame;
@@ -156,10 +154,15 @@ void CpuObjectStage::mergeRegions(const Input& in, const Params& params, int64_t
   if (graph.labels->scope == segmentation::Scope::Frame) {
     own_.assign(graph.regions.size(), {});
     ownMotionScratch_.moves.assign(graph.regions.size(), 0);
-    if (isMoving && previous && previous_ && previous->size() == previous_->size())
-      findOwnMotion(motion, previous->luma(), {camera, objects.arcs, weights, expected_, shifts_},
+    const bool isComparable =
+        isMoving && previous && previous_ && previous->size() == previous_->size();
+    moved_.carry(motion, isComparable ? previous->luma() : ImageView<const uint8_t>{}, stepNs,
+                 *context_.cpu);
+    if (isComparable)
+      findOwnMotion(motion, previous->luma(), {objects.arcs, weights, expected_, shifts_},
                     *context_.cpu, ownMotionScratch_, own_);
     tieToGround(graph, weights, objects.ground);
+    moved_.add(motion, own_, *context_.cpu);
     objects.groundGroup =
         minimiseWithGround(graph, objects.arcs, {objects.ground, isOpen_, ownMotionScratch_.moves},
                            groundScratch_, mergeScratch_, groupOf_);
@@ -183,11 +186,11 @@ void CpuObjectStage::mergeByEnergy(const motion::Motion& motion, const MergeWeig
   nameGroups(motion, objects);
   isBackground_.assign(groups_.size(), 0);
   objects.groundGroup = largestGroup(groups_, motion.size);
-  objects.cameraDx = objects.cameraDy = 0;
+  objects.setCamera({});
   if (!objects.groundGroup) return;
   isBackground_[objects.groundGroup.index()] = 1;
-  objects.cameraDx = groups_[objects.groundGroup.index()].dx;
-  objects.cameraDy = groups_[objects.groundGroup.index()].dy;
+  const Group& ground = groups_[objects.groundGroup.index()];
+  objects.setCamera(CameraMotion(Point{ground.dx, ground.dy}));
 }
 
 void CpuObjectStage::nameGroups(const motion::Motion& shown, Objects& objects) {
@@ -204,20 +207,22 @@ void CpuObjectStage::tieToGround(const graph::Graph& graph, const MergeWeights& 
   isOpen_.clear();
   for (size_t r = 0; r < own_.size(); ++r) {
     const bool isStopped{standing_[r].track};
+    const int64_t before = moved_.gainOf(r);
     // That it moves as the ground does says nothing against what has stopped.
-    const int64_t gain = isStopped ? std::max<int64_t>(0, own_[r].gain) : own_[r].gain;
+    const int64_t gain = before + (isStopped ? std::max<int64_t>(0, own_[r].gain) : own_[r].gain);
     energies.push_back(weighGround(gain, graph.regions[r].areaPx, bool{expected_[r]}, weights,
                                    standing_[r].areaPx));
-    isOpen_.push_back(own_[r].isTried() || isStopped);
-    ownMotionScratch_.moves[r] |= isStopped;
+    const bool hasMoved = before > 0 && energies.back().weight() < 0;
+    isOpen_.push_back(own_[r].isTried() || isStopped || hasMoved);
+    ownMotionScratch_.moves[r] |= isStopped || hasMoved;
   }
 }
 
 /// What has stopped is expected where it is seen, whatever it did before.
 void CpuObjectStage::recallStanding(const graph::Graph& graph, Objects& objects) {
   standing_.assign(graph.regions.size(), {});
-  findStandingTracks(tracker_.tracks(), *graph.labels, {objects.cameraDx, objects.cameraDy},
-                     graph.regions, standingScratch_, standing_);
+  findStandingTracks(tracker_.tracks(), *graph.labels, objects.camera, graph.regions,
+                     standingScratch_, standing_);
   for (size_t r = 0; r < standing_.size(); ++r) {
     if (!standing_[r].track) continue;
     expected_[r] = standing_[r].track;
@@ -313,7 +318,7 @@ void CpuObjectStage::nameRegions(const graph::Graph& graph, Objects& objects) {
 
 void CpuObjectStage::gatherEvidence(const graph::Graph& graph, const Objects& objects) {
   gather(graph, objects.regionGroup, isBackground_, expected_, evidence_);
-  evidence_.camera = {objects.cameraDx, objects.cameraDy};
+  evidence_.camera = objects.camera;
   evidence_.showsMovers = graph.labels->scope == segmentation::Scope::Frame;
   evidence_.motionOf.clear();
   evidence_.trustOf.clear();
@@ -351,7 +356,7 @@ Result<std::shared_ptr<const Objects>> CpuObjectStage::process(Input in, const P
   objects->groundGroup = {};
   objects->ground.clear();
   objects->isCutShort = false;
-  objects->cameraDx = objects->cameraDy = 0;
+  objects->setCamera({});
   const TrackerParams tracking{
       static_cast<int64_t>(std::clamp(params.maxLostTimeS, 0.0, 3600.0) * 1e9),
       static_cast<uint32_t>(std::lround(std::clamp(params.minObjectArea, 0.0, 100.0) / 100 *

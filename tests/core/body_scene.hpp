@@ -61,6 +61,9 @@ class BodyScene {
     motion->status = Status::Ok;
     motion->graph = *graph::makeStage(context)->process(labels, {});
     motion->regions = seen;
+    // The first body is the ground, where all of the frame has regions.
+    if (scope_ == segmentation::Scope::Frame && !motions.empty())
+      motion->camera = CameraMotion(Point{motions[0].dx, motions[0].dy});
     return process(motion);
   }
   std::shared_ptr<const objects::Objects> skip() {

@@ -191,6 +191,12 @@ std::shared_ptr<const motion::Motion> ObjectProgram::makeMotion(
     motion->regions.push_back(of);
   }
   motion->regions.shrink_to_fit();
+  motion->camera = CameraMotion(Point{dx, dy});
+  if (kind % 4 == 3)  // It turns and grows, round a place that may lie far outside.
+    motion->camera = {{CameraMotion::kOne + dx * (1 << 20), dy * (1 << 20), dx * (1 << 24),
+                       -dy * (1 << 20), CameraMotion::kOne - dx * (1 << 20), dy * (1 << 24),
+                       dx * (1 << 12), dy * (1 << 12), CameraMotion::kOne},
+                      {dx * 50, dy * 50}};
   motion->graph = std::move(graph);
   return motion;
 }

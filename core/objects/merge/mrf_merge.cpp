@@ -221,7 +221,7 @@ void describeGroups(const motion::Motion& motion, std::span<const GroupIndex> gr
     group.areaPx += regions[i].areaPx;
     group.box = unite(group.box, regions[i].box);
     ++group.regionCount;
-    group.momentX += weight * m.dx;  // 2^32 px · 2^8 · 2^11 (64 px in 1/16) fit in 64 bits.
+    group.momentX += weight * m.dx;  // 2^26 px · 2^8 · 2^19 (a frame in 1/16 px) fit in 64 bits.
     group.momentY += weight * m.dy;
     group.weight += weight;
     group.sumX += int64_t{regions[i].areaPx} * regions[i].centroidX;
@@ -245,53 +245,6 @@ GroupIndex largestGroup(std::span<const Group> groups, Size frame) {
     largest = GroupIndex::ofIndex(i);
   }
   return left > most ? GroupIndex() : largest;
-}
-
-motion::RegionMotion dominantMotion(const motion::Motion& motion, VoteScratch& scratch) {
-  constexpr int kReach = VoteScratch::kReach, kSide = VoteScratch::kSide;
-  scratch.cells.resize(size_t{kSide} * kSide);
-  const auto cellAt = [&](int x, int y) -> VoteScratch::Cell& {
-    return scratch.cells[static_cast<size_t>((y + kReach) * kSide + x + kReach)];
-  };
-  Box voted;
-  for (size_t i = 0; i < motion.regions.size(); ++i) {
-    const motion::RegionMotion& m = motion.regions[i];
-    const int64_t weight = int64_t{motion.graph->regions[i].areaPx} * m.reliability;
-    if (weight == 0) continue;
-    const auto wholePx = [](int32_t v) {
-      return std::clamp(static_cast<int>(divideRounded(v, motion::kMotionUnit)), 1 - kReach,
-                        kReach - 1);
-    };
-    const Point at{wholePx(m.dx), wholePx(m.dy)};
-    voted = unite(voted, {at.x, at.y, 1, 1});
-    VoteScratch::Cell& cell = cellAt(at.x, at.y);
-    cell.weight += weight;
-    cell.momentX += weight * m.dx;
-    cell.momentY += weight * m.dy;
-  }
-  constexpr Box kInner{1 - kReach, 1 - kReach, kSide - 2, kSide - 2};
-  const Box near = voted.isEmpty() ? voted : intersect(inflate(voted, 1), kInner);
-  motion::RegionMotion best;
-  std::tuple<int64_t, int, int, int> bestKey{0, 0, 0, 0};
-  for (int y = near.y; y < near.bottom(); ++y)
-    for (int x = near.x; x < near.right(); ++x) {
-      VoteScratch::Cell sum;
-      for (int n = 0; n < 9; ++n) {
-        const VoteScratch::Cell& cell = cellAt(x + n % 3 - 1, y + n / 3 - 1);
-        sum.weight += cell.weight;
-        sum.momentX += cell.momentX;
-        sum.momentY += cell.momentY;
-      }
-      const std::tuple key{-sum.weight, x * x + y * y, y, x};
-      if (sum.weight == 0 || key >= bestKey) continue;
-      bestKey = key;
-      best.dx = static_cast<int32_t>(divideRounded(sum.momentX, sum.weight));
-      best.dy = static_cast<int32_t>(divideRounded(sum.momentY, sum.weight));
-      best.reliability = motion::kFullReliability;
-    }
-  for (int y = voted.y; y < voted.bottom(); ++y)
-    std::fill_n(&cellAt(voted.x, y), voted.width, VoteScratch::Cell{});
-  return best;
 }
 
 }  // namespace rg::objects

@@ -92,16 +92,6 @@ struct MergeScratch {
   }
 };
 
-/// Votes for motions of −kReach … kReach px on each axis.
-struct VoteScratch {
-  static constexpr int kReach = 65;
-  static constexpr int kSide = 2 * kReach + 1;
-  struct Cell {
-    int64_t weight = 0, momentX = 0, momentY = 0;
-  };
-  std::vector<Cell> cells;  ///< All 0 between votes.
-};
-
 /// Merged regions.
 struct Group {
   uint32_t areaPx = 0;
@@ -162,10 +152,5 @@ void describeGroups(const motion::Motion& motion, std::span<const GroupIndex> gr
 /// The group with the most pixels, of equal ones the first; none where more pixels of the frame
 /// have no region.
 [[nodiscard]] GroupIndex largestGroup(std::span<const Group> groups, Size frame);
-
-/// The motion that most pixels agree on: the regions vote by area and reliability for whole pixels,
-/// 3x3 neighbours count as one; the shorter motion wins ties. Reliability 0 where nobody votes.
-[[nodiscard]] motion::RegionMotion dominantMotion(const motion::Motion& motion,
-                                                  VoteScratch& scratch);
 
 }  // namespace rg::objects

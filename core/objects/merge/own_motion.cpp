@@ -32,9 +32,9 @@ struct Inputs {
   const OwnMotionRules& rules;
 };
 
-Point shiftBeyond(const motion::RegionMotion& m, const motion::RegionMotion& camera) {
-  return {static_cast<int>(divideRounded(m.dx - camera.dx, motion::kMotionUnit)),
-          static_cast<int>(divideRounded(m.dy - camera.dy, motion::kMotionUnit))};
+Point inPixels(Point motion) {
+  return {static_cast<int>(divideRounded(motion.x, motion::kMotionUnit)),
+          static_cast<int>(divideRounded(motion.y, motion::kMotionUnit))};
 }
 
 /// Calls visit(first pixel, count, label) for all that the movers covered in the previous frame.
@@ -84,7 +84,7 @@ void measure(const Inputs& in, const std::vector<OwnMotion>& own, OwnMotionScrat
   if (s.hidesAny) forCovered(in, own, s, rg::simd::raiseRow);
   in.executor.forEach(static_cast<int>(s.trials.size()), [&](int i) {
     const auto region = static_cast<size_t>(i);
-    if (s.trials[region].shift != Point{}) compareRegion(in.motion, in.rules.camera, region, s);
+    if (s.trials[region].shift != Point{}) compareRegion(in.motion, region, s);
   });
   uint64_t pixels = 0;
   for (const Trial& trial : s.trials) pixels += trial.seen;
@@ -165,15 +165,17 @@ void judge(const Inputs& in, int64_t deviations, OwnMotionScratch& s, std::vecto
 
 /// The shift that a region's own vector suggests, or what it is expected to be.
 Point ownShift(const Inputs& in, size_t region) {
-  const motion::RegionMotion &m = in.motion.regions[region], &camera = in.rules.camera;
-  const int64_t dx = m.dx - camera.dx, dy = m.dy - camera.dy;
+  const motion::RegionMotion& m = in.motion.regions[region];
+  const graph::Region& where = in.motion.graph->regions[region];
+  const Point camera = in.motion.camera.at(where.centroidX >> 8, where.centroidY >> 8);
+  const Point beyond{m.dx - camera.x, m.dy - camera.y};
   const int64_t threshold = in.rules.weights.motionThreshold;
-  if (dx * dx + dy * dy > threshold * threshold) return shiftBeyond(m, camera);
+  if (int64_t{beyond.x} * beyond.x + int64_t{beyond.y} * beyond.y > threshold * threshold)
+    return inPixels(beyond);
   const TrackIndex track = expectedAs(in.rules, region);
   if (!track) return {};
-  const Point step = in.rules.steps[track.index()];
-  return {step.x - static_cast<int>(divideRounded(camera.dx, motion::kMotionUnit)),
-          step.y - static_cast<int>(divideRounded(camera.dy, motion::kMotionUnit))};
+  const Point step = in.rules.steps[track.index()], by = inPixels(camera);
+  return {step.x - by.x, step.y - by.y};
 }
 
 }  // namespace
@@ -194,8 +196,9 @@ void findOwnMotion(const motion::Motion& motion, ImageView<const uint8_t> previo
     s.hidden.resize(motion.size);
     s.hidden.fill(segmentation::kNoRegion);
   }
-  warpByCamera(previous, CameraMotion(Point{rules.camera.dx, rules.camera.dy}), executor,
-               s.expected);
+  s.expected.resize(motion.size);
+  s.shown.resize(static_cast<size_t>(motion.size.height));
+  warpByCamera(previous, motion.camera, executor, s.expected, s.shown);
   for (int round = 0; round < kOwnRounds; ++round) {
     measure(in, own, s);
     measureNoise(s);

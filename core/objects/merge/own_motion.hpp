@@ -19,10 +19,10 @@
 // both sides alike. Determinism: integer sums over pixels; rounds read the state before them.
 #pragma once
 
+#include "core/base/camera/camera_warp.hpp"
 #include "core/base/memory/executor.hpp"
 #include "core/base/memory/image.hpp"
 #include "core/motion/motion.hpp"
-#include "core/objects/camera/camera_warp.hpp"
 #include "core/objects/merge/mrf_merge.hpp"
 
 #include <array>
@@ -54,10 +54,11 @@ struct OwnMotionScratch {
     Sums sums;          ///< Of the bands that are not left out.
     uint64_t seen = 0;  ///< Pixels of all bands.
   };
-  ExpectedFrame expected;      ///< The previous frame as the camera's motion moves it.
-  Image<uint16_t> hidden;      ///< Its pixels that a mover covered: the label of that, else 0;
-                               ///< all 0 between measurements.
-  std::vector<uint8_t> moves;  ///< Of each region, the guess.
+  Image<uint8_t> expected;        ///< The previous frame as the camera's motion moves it,
+  std::vector<ShownRange> shown;  ///< and of each row the columns that it shows.
+  Image<uint16_t> hidden;         ///< Its pixels that a mover covered: the label of that, else 0;
+                                  ///< all 0 between measurements.
+  std::vector<uint8_t> moves;     ///< Of each region, the guess.
   std::vector<Trial> trials;
   struct Surroundings {
     int64_t hold = 0;      ///< U2 and U3 of the arcs to what moves, less those to what does not.
@@ -73,7 +74,6 @@ struct OwnMotionScratch {
 };
 
 struct OwnMotionRules {
-  motion::RegionMotion camera;
   std::span<const ArcEnergy> arcs;  ///< Of the graph, as weighArcs() made them.
   MergeWeights weights;  ///< Vectors that differ from the camera's by no more than the threshold
                          ///< are the camera's.
@@ -82,10 +82,11 @@ struct OwnMotionRules {
   std::span<const Point> steps;          ///< Of each track, pixels, with the camera's.
 };
 
-/// previous: the luma that `motion` was measured against. Cost: follows the pixels of the movers
-/// and of their neighbours; where no vector differs from the camera's, nothing is compared. Where
-/// those are more than half a million pixels (a large frame that moves in parts, or of which the
-/// camera's motion was not found), some rows of each region stand for all.
+/// previous: the luma that `motion` was measured against; motion.camera tells how that moved. Cost:
+/// follows the pixels of the movers and of their neighbours; where no vector differs from the
+/// camera's, nothing is compared. Where those are more than half a million pixels (a large frame
+/// that moves in parts, or of which the camera's motion was not found), some rows of each region
+/// stand for all.
 void findOwnMotion(const motion::Motion& motion, ImageView<const uint8_t> previous,
                    const OwnMotionRules& rules, const Executor& executor, OwnMotionScratch& scratch,
                    std::vector<OwnMotion>& own);

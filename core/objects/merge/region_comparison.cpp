@@ -17,17 +17,6 @@ constexpr int kShortRun = 8;  // Pixels: of fewer, choosing the instruction set 
 
 using Sums = OwnMotionScratch::Sums;
 
-/// Rows or columns of the frame that the previous frame shows as well.
-struct Range {
-  int first, last;
-};
-
-Range visibleRange(int length, int shift) {
-  const int whole = shift >> motion::kMotionFractionBits;
-  const bool isWhole = shift % motion::kMotionUnit == 0;
-  return {std::clamp(whole + (isWhole ? 0 : 1), 0, length), std::clamp(length + whole, 0, length)};
-}
-
 simd::DifferenceSums sumFew(const simd::ComparedRows& rows, int count) {
   simd::DifferenceSums sums;
   for (int i = 0; i < count; ++i) {
@@ -39,7 +28,7 @@ simd::DifferenceSums sumFew(const simd::ComparedRows& rows, int count) {
 
 /// Calls visit(first, last) for the parts of a row's columns that nothing hides from a region.
 template <class Visit, class IsHiding>
-void forVisible(const uint16_t* hidden, Range columns, const IsHiding& isHiding,
+void forVisible(const uint16_t* hidden, ShownRange columns, const IsHiding& isHiding,
                 const Visit& visit) {
   const int count = columns.last - columns.first;
   if (count <= 0) return;
@@ -83,8 +72,7 @@ Sums withoutBest(const std::array<Sums, kBands>& bands) {
 /// A region, compared where it can be with and without its shift.
 class Comparison {
  public:
-  Comparison(const motion::Motion& motion, const motion::RegionMotion& camera, size_t region,
-             const OwnMotionScratch& s)
+  Comparison(const motion::Motion& motion, size_t region, const OwnMotionScratch& s)
       : graph_(*motion.graph),
         luma_(graph_.picture->luma()),
         s_(s),
@@ -92,9 +80,7 @@ class Comparison {
         label_(segmentation::RegionLabel::ofIndex(region)),
         shift_(s.trials[region].shift),
         box_(graph_.regions[region].box),
-        isAcross_(std::abs(shift_.x) >= std::abs(shift_.y)),
-        columns_(comparable(visibleRange(graph_.size.width, camera.dx), shift_.x)),
-        rows_(comparable(visibleRange(graph_.size.height, camera.dy), shift_.y)) {
+        isAcross_(std::abs(shift_.x) >= std::abs(shift_.y)) {
     for (int band = 0; band <= kBands; ++band)
       bandAt_[static_cast<size_t>(band)] = box_.x + band * box_.width / kBands;
   }
@@ -109,23 +95,24 @@ class Comparison {
   }
 
  private:
-  /// Of those that the previous frame shows, the ones that it shows without the shift, too.
-  static Range comparable(const Range& shown, int shift) {
-    return {std::max(shown.first, shown.first + shift), std::min(shown.last, shown.last + shift)};
-  }
-
   void beginRow(int y) {
     y_ = y;
-    isCompared_ = y >= rows_.first && y < rows_.last && (y - box_.y) % s_.everyRow == 0;
+    const int from = y - shift_.y;
+    isCompared_ = from >= 0 && from < luma_.height() && (y - box_.y) % s_.everyRow == 0;
     if (!isCompared_) return;
+    // Pixels that the previous frame shows both with and without the shift.
+    const ShownRange& still = s_.shown[static_cast<size_t>(y)];
+    const ShownRange& moved = s_.shown[static_cast<size_t>(from)];
+    columns_ = {std::max(still.first, moved.first + shift_.x),
+                std::min(still.last, moved.last + shift_.x)};
     now_ = luma_.row(y);
-    still_ = s_.expected.luma.row(y);
-    moved_ = s_.expected.luma.row(y - shift_.y);
+    still_ = s_.expected.row(y);
+    moved_ = s_.expected.row(from);
     hidden_ = s_.hidesAny ? s_.hidden.row(y) : nullptr;
     if (isAcross_) band_ = kBands * (y - box_.y) / box_.height;
   }
 
-  void addRun(const Range& seen) {
+  void addRun(const ShownRange& seen) {
     if (hidden_ == nullptr) return addSpan(seen.first, seen.last);
     const auto isHiding = [&](uint16_t by) {
       return by != segmentation::kNoRegion && by != label_.number();
@@ -158,23 +145,22 @@ class Comparison {
   segmentation::RegionLabel label_;
   Point shift_;
   Box box_;
-  bool isAcross_;  ///< The bands are rows.
-  Range columns_, rows_;
+  bool isAcross_;                         ///< The bands are rows.
   std::array<int, kBands + 1> bandAt_{};  ///< First column of each band.
   std::array<Sums, kBands> bands_{};
 
   // The row at hand.
   int y_ = -1, band_ = 0;
   bool isCompared_ = false;
+  ShownRange columns_;
   const uint8_t *now_ = nullptr, *still_ = nullptr, *moved_ = nullptr;
   const uint16_t* hidden_ = nullptr;
 };
 
 }  // namespace
 
-void compareRegion(const motion::Motion& motion, const motion::RegionMotion& camera, size_t region,
-                   OwnMotionScratch& s) {
-  Comparison comparison(motion, camera, region, s);
+void compareRegion(const motion::Motion& motion, size_t region, OwnMotionScratch& s) {
+  Comparison comparison(motion, region, s);
   const std::array<Sums, kBands>& bands = comparison.run();
   OwnMotionScratch::Trial& trial = s.trials[region];
   trial.seen = 0;

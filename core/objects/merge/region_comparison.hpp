@@ -9,10 +9,9 @@
 
 namespace rg::objects {
 
-/// Fills in the sums of the region's trial, which has a shift; reads s.expected and, where
+/// Fills in the sums of the region's trial, which has a shift; reads s.expected, s.shown and, where
 /// s.hidesAny, s.hidden. Regions may be compared at the same time. Cost: follows the region's
 /// pixels, and its runs.
-void compareRegion(const motion::Motion& motion, const motion::RegionMotion& camera, size_t region,
-                   OwnMotionScratch& s);
+void compareRegion(const motion::Motion& motion, size_t region, OwnMotionScratch& s);
 
 }  // namespace rg::objects

@@ -5,6 +5,7 @@
 // Determinism: each cell is the sample at its middle.
 #pragma once
 
+#include "core/base/camera/camera_motion.hpp"
 #include "core/base/geometry.hpp"
 #include "core/base/picture.hpp"
 #include "core/graph/graph.hpp"
@@ -38,7 +39,7 @@ struct GroupGrid {
   /// For each row and column of pixels the first cell whose middle does not come before it; one
   /// entry more than there are pixels.
   std::vector<uint16_t> cellFromRow, cellFromColumn;
-  Point camera;  ///< Its motion since the previous frame, in 1/16 px.
+  CameraMotion camera;  ///< Since the previous frame.
   /// What stands still is background, whatever it is, and groups are things: two that touch are
   /// told apart by their motion.
   bool showsMovers = false;

@@ -50,14 +50,16 @@ bool isSeenStanding(const Track& track, const Picture& picture, Point expected, 
 }  // namespace
 
 void findStandingTracks(std::span<const Track> tracks, const segmentation::Labels& labels,
-                        Point camera, std::span<const graph::Region> regions, StandingScratch& s,
-                        std::span<StandingTrack> ofRegion) {
+                        const CameraMotion& camera, std::span<const graph::Region> regions,
+                        StandingScratch& s, std::span<StandingTrack> ofRegion) {
   s.votes.resize(std::max(s.votes.size(), regions.size()), 0);
   for (uint32_t t = 0; t < tracks.size(); ++t) {
     const Track& track = tracks[t];
     if (!track.isConfirmed || !track.hasTravelled || !Tracker::isFaithful(track)) continue;
     Point corner;
-    if (!isSeenStanding(track, *labels.picture, track.portraitCorner(camera), corner)) continue;
+    if (!isSeenStanding(track, *labels.picture,
+                        track.portraitCorner(camera.since({track.x, track.foot})), corner))
+      continue;
     const auto samplePx = static_cast<uint32_t>(track.portrait.stepPx * track.portrait.stepPx);
     forSamples(track.portrait, *labels.picture, corner, 1, [&](Point at, bool isAlike) {
       const uint16_t label = labels.ids.at(at.x, at.y);

@@ -28,11 +28,11 @@ struct StandingScratch {
   std::vector<uint32_t> seen;   ///< Regions with votes.
 };
 
-/// tracks: as they were in the previous frame; camera: how the ground has moved since, in 1/16 px.
+/// tracks: as they were in the previous frame; camera: how the ground has moved since.
 /// Result: of each region that a thing shows in at least half of its pixels, that thing; `ofRegion`
 /// comes with an entry per region. Cost: nine looks at a part of each portrait.
 void findStandingTracks(std::span<const Track> tracks, const segmentation::Labels& labels,
-                        Point camera, std::span<const graph::Region> regions,
+                        const CameraMotion& camera, std::span<const graph::Region> regions,
                         StandingScratch& scratch, std::span<StandingTrack> ofRegion);
 
 }  // namespace rg::objects

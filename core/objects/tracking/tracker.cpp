@@ -104,18 +104,24 @@ Point Tracker::stepOf(const Track& track, int64_t stepNs) {
   return {step(track.speedX), step(track.speedY)};
 }
 
-Point Tracker::expectedShift(const Track& track, Point camera, int64_t stepNs) {
+Point Tracker::expectedShift(const Track& track, const CameraMotion& camera, int64_t stepNs) {
   const Point step = stepOf(track, stepNs);
+  const Point by = camera.since({track.x, track.foot - track.size.height / 2});
   const auto px = [](int64_t v) { return static_cast<int>(divideRounded(v, kUnit)); };
-  return {px(int64_t{step.x} + camera.x), px(int64_t{step.y} + camera.y)};
+  return {px(int64_t{step.x} + by.x), px(int64_t{step.y} + by.y)};
 }
 
 /// All of a track's places are places in the picture, which moves over the ground.
-void Tracker::moveWithCamera(Track& track, Point camera) {
-  for (int32_t* x : {&track.x, &track.stillX, &track.originX, &track.learntX})
-    *x = toInt(int64_t{*x} + camera.x);
-  for (int32_t* y : {&track.foot, &track.stillFoot, &track.originFoot, &track.learntFoot})
-    *y = toInt(int64_t{*y} + camera.y);
+void Tracker::moveWithCamera(Track& track, const CameraMotion& camera) {
+  const std::pair<int32_t*, int32_t*> places[] = {{&track.x, &track.foot},
+                                                  {&track.stillX, &track.stillFoot},
+                                                  {&track.originX, &track.originFoot},
+                                                  {&track.learntX, &track.learntFoot}};
+  for (const auto& [x, y] : places) {
+    const Point by = camera.since({*x, *y});
+    *x = toInt(int64_t{*x} + by.x);
+    *y = toInt(int64_t{*y} + by.y);
+  }
 }
 
 void Tracker::advance(Track& track, int64_t stepNs) const {

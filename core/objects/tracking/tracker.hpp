@@ -203,8 +203,9 @@ class Tracker {
   /// The events of the last update, which are told once; ends what they began and ended. Adds
   /// `isAnotherScene` as an event.
   void takeEvents(bool isAnotherScene, std::vector<Event>& out);
-  /// How far a track will move in the next `stepNs`, in pixels; camera: in 1/16 px meanwhile.
-  [[nodiscard]] static Point expectedShift(const Track& track, Point camera, int64_t stepNs);
+  /// How far a track will move in the next `stepNs`, in pixels, while the camera moves so.
+  [[nodiscard]] static Point expectedShift(const Track& track, const CameraMotion& camera,
+                                           int64_t stepNs);
   /// Whether its portrait tells where it is.
   [[nodiscard]] static bool isFaithful(const Track& track);
   void remember(size_t index, graph::Colour colour) { tracks_[index].colour = colour; }
@@ -212,7 +213,7 @@ class Tracker {
 
  private:
   [[nodiscard]] static Point stepOf(const Track& track, int64_t stepNs);
-  static void moveWithCamera(Track& track, Point camera);
+  static void moveWithCamera(Track& track, const CameraMotion& camera);
   void advance(Track& track, int64_t stepNs) const;
   void lookForTracks(const GroupGrid& evidence, int64_t stepNs);
   void giveGroups(const GroupGrid& evidence, std::span<const Group> groups);

@@ -202,14 +202,5 @@ TEST(MrfMerge, GroupsAreMeansByAreaAndReliability) {
   EXPECT_EQ(groups[1].reliability, 0);
 }
 
-TEST(MrfMerge, TheDominantMotionIsWhatMostReliablePixelsDo) {
-  Row row({{33, 0, 0, 200}, {31, 2, 0, 200}, {-160, 0, 0, 256}, {500, 500, 0, 0}});
-  objects::VoteScratch scratch;
-  const motion::RegionMotion motion = objects::dominantMotion(row.motion, scratch);
-  EXPECT_EQ(motion.dx, 32);
-  EXPECT_EQ(motion.dy, 1);
-  EXPECT_EQ(objects::dominantMotion(Row({kUnknown}).motion, scratch).reliability, 0);
-}
-
 }  // namespace
 }  // namespace rg

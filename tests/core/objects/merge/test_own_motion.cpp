@@ -45,6 +45,8 @@ motion::Motion motionOf(std::shared_ptr<const segmentation::Labels> labels,
   motion::Motion motion;
   motion.size = labels->size;
   motion.status = Status::Ok;
+  motion.camera =
+      CameraMotion(Point{kCamera.x * motion::kMotionUnit, kCamera.y * motion::kMotionUnit});
   motion.graph = *graph::makeStage(scenes::contextWith(1))->process(std::move(labels), {});
   for (const Point& v : vectors)
     motion.regions.push_back({v.x * motion::kMotionUnit, v.y * motion::kMotionUnit, 0, 20});
@@ -56,9 +58,6 @@ std::vector<objects::ArcEnergy> energiesOf(const motion::Motion& motion) {
   objects::weighArcs(motion, {}, {}, energies);
   return energies;
 }
-
-constexpr motion::RegionMotion kCameraMotion{kCamera.x * motion::kMotionUnit,
-                                             kCamera.y* motion::kMotionUnit, 0, 256};
 
 struct Found {
   std::vector<uint8_t> moves;
@@ -73,8 +72,8 @@ Found searchFor(const Picture& previous, std::shared_ptr<const segmentation::Lab
   objects::OwnMotionScratch scratch;
   std::vector<objects::OwnMotion> own;
   const std::vector<objects::ArcEnergy> arcs = energiesOf(motion);
-  objects::findOwnMotion(motion, previous.luma(), {kCameraMotion, arcs, {}, expected, steps},
-                         Executor(1), scratch, own);
+  objects::findOwnMotion(motion, previous.luma(), {arcs, {}, expected, steps}, Executor(1), scratch,
+                         own);
   return {scratch.moves, scratch.rounds};
 }
 
@@ -191,13 +190,13 @@ TEST(OwnMotion, WorkIsBoundedWhereAllOfALargeFrameMoves) {
   const auto labels = scenes::label(at(1), kTiles, [&](int x, int y) { return tileAt(x, y) + 1; });
   std::vector<Point> vectors;
   for (int tile = 0; tile < kTiles; ++tile) vectors.push_back(stepOf(tile));
-  const motion::Motion motion = motionOf(labels, vectors);
+  motion::Motion motion = motionOf(labels, vectors);
+  motion.camera = {};
   const std::vector<objects::ArcEnergy> arcs = energiesOf(motion);
   const auto previous = at(0);
   objects::OwnMotionScratch scratch;
   std::vector<objects::OwnMotion> own;
-  objects::findOwnMotion(motion, previous->luma(), {{0, 0, 0, 256}, arcs, {}, {}, {}}, Executor(1),
-                         scratch, own);
+  objects::findOwnMotion(motion, previous->luma(), {arcs, {}, {}, {}}, Executor(1), scratch, own);
   EXPECT_GT(scratch.mostPixels, 200'000u);
   EXPECT_LT(scratch.mostPixels, 600'000u);
   EXPECT_EQ(std::count(scratch.moves.begin(), scratch.moves.end(), 1), kTiles);
@@ -391,6 +390,7 @@ TEST(OwnMotion, IsThatOfEachPixelOnEveryTargetAndNumberOfThreads) {
     motion::Motion motion;
     motion.size = kFrame;
     motion.status = Status::Ok;
+    motion.camera = CameraMotion(Point{camera.dx, camera.dy});
     motion.graph = *graph::makeStage(scenes::contextWith(1))
                         ->process(scenes::label(current, kTiles,
                                                 [&](int x, int y) { return tileAt(x, y) + 1; }),
@@ -408,8 +408,8 @@ TEST(OwnMotion, IsThatOfEachPixelOnEveryTargetAndNumberOfThreads) {
       objects::OwnMotionScratch scratch;
       std::vector<objects::OwnMotion> own;
       for (int frame = 0; frame < 2; ++frame)
-        objects::findOwnMotion(motion, previous->luma(), {camera, arcs, {}, {}, {}}, *executor,
-                               scratch, own);
+        objects::findOwnMotion(motion, previous->luma(), {arcs, {}, {}, {}}, *executor, scratch,
+                               own);
       EXPECT_EQ(own, expected);
     });
   }

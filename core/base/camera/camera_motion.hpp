@@ -12,7 +12,7 @@
 #include <array>
 #include <cstdint>
 
-namespace rg::objects {
+namespace rg {
 
 /// From a place in this frame to the one where the same was in the previous frame.
 class CameraMotion {
@@ -79,6 +79,17 @@ class CameraMotion {
     return {static_cast<int>(divideRounded((bounded(x) << kPlaceBits) - was.x, kUnit)),
             static_cast<int>(divideRounded((bounded(y) << kPlaceBits) - was.y, kUnit))};
   }
+  /// By how much what was at `place` in the previous frame has moved; both in 1/16 px.
+  [[nodiscard]] constexpr Point since(Point place) const {
+    const auto px = [](int64_t v) {
+      return static_cast<int>(
+          divideRounded(std::clamp<int64_t>(v, INT32_MIN, INT32_MAX), 1 << kMotionBits));
+    };
+    Point by;
+    for (int step = 0; step < 2; ++step)
+      by = at(px(int64_t{place.x} + by.x), px(int64_t{place.y} + by.y));
+    return by;
+  }
   friend constexpr bool operator==(const CameraMotion&, const CameraMotion&) = default;
 
  private:
@@ -90,4 +101,4 @@ class CameraMotion {
   Point origin_;
 };
 
-}  // namespace rg::objects
+}  // namespace rg

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "core/objects/camera/camera_warp.hpp"
+#include "core/base/camera/camera_warp.hpp"
 
 #include "core/simd/base/motion_rows.hpp"
 
 #include <algorithm>
 
-namespace rg::objects {
+namespace rg {
 namespace {
 
 constexpr int kSpan = 16;  // Columns; a power of two.
@@ -21,7 +21,7 @@ ShownRange shownBy(int length, int shift) {
 }
 
 void warpByShift(ImageView<const uint8_t> previous, Point shift, const Executor& executor,
-                 ExpectedFrame& expected) {
+                 ImageView<uint8_t> expected, std::span<ShownRange> shown) {
   const auto wholeOf = [](int v) { return -((v + kUnit - 1) >> kUnitBits); };
   const auto partOf = [&](int v) { return -v - wholeOf(v) * kUnit; };
   const int dx = wholeOf(shift.x), dy = wholeOf(shift.y);
@@ -33,7 +33,7 @@ void warpByShift(ImageView<const uint8_t> previous, Point shift, const Executor&
     for (int y = begin; y < end; ++y) {
       const uint8_t* above = previous.row(std::clamp(y + dy, 0, height - 1));
       const uint8_t* below = previous.row(std::clamp(y + dy + 1, 0, height - 1));
-      uint8_t* to = expected.luma.row(y);
+      uint8_t* to = expected.row(y);
       const auto repeatBorder = [&](int from, int until, int column) {
         const uint8_t sides[] = {above[column], above[column], below[column], below[column]};
         if (from == until) return;
@@ -44,8 +44,7 @@ void warpByShift(ImageView<const uint8_t> previous, Point shift, const Executor&
       if (first < last)
         rg::simd::warpRow({above + first + dx, below + first + dx, u, v}, last - first, to + first);
       repeatBorder(last, width, width - 1);
-      expected.shown[static_cast<size_t>(y)] =
-          y >= rows.first && y < rows.last ? columns : ShownRange{};
+      shown[static_cast<size_t>(y)] = y >= rows.first && y < rows.last ? columns : ShownRange{};
     }
   });
 }
@@ -108,15 +107,13 @@ class RowWarp {
 }  // namespace
 
 void warpByCamera(ImageView<const uint8_t> previous, const CameraMotion& camera,
-                  const Executor& executor, ExpectedFrame& expected) {
-  expected.luma.resize(previous.size);
-  expected.shown.resize(static_cast<size_t>(previous.height()));
-  if (camera.isShift()) return warpByShift(previous, camera.at(0, 0), executor, expected);
+                  const Executor& executor, ImageView<uint8_t> expected,
+                  std::span<ShownRange> shown) {
+  if (camera.isShift()) return warpByShift(previous, camera.at(0, 0), executor, expected, shown);
   executor.forRows(previous.height(), [&](int begin, int end) {
     RowWarp warp(previous, camera);
-    for (int y = begin; y < end; ++y)
-      expected.shown[static_cast<size_t>(y)] = warp.run(y, expected.luma.row(y));
+    for (int y = begin; y < end; ++y) shown[static_cast<size_t>(y)] = warp.run(y, expected.row(y));
   });
 }
 
-}  // namespace rg::objects
+}  // namespace rg

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// How a camera has moved since the previous frame, from the pixels of both.
+//
+// Both frames are looked at as small pictures of at most some 320 columns, in blocks of 8x8. Each
+// block is looked for where the picture as a whole has gone (tried on still smaller pictures),
+// where the camera was heading, and where it was; their consensus (camera_fit) is the start. Then
+// what the pixels of each block still differ by, along their gradients, says how far off it is
+// (Gauss and Newton's way), block by block, and the fit is made again.
+//
+// Determinism: integers on pixels; camera_fit tells of the rest.
+#pragma once
+
+#include "core/base/camera/camera_fit.hpp"
+#include "core/base/camera/camera_motion.hpp"
+#include "core/base/camera/picture_blocks.hpp"
+#include "core/base/memory/executor.hpp"
+#include "core/base/memory/image.hpp"
+#include "core/base/picture.hpp"
+
+#include <memory>
+#include <vector>
+
+namespace rg {
+
+class CameraSearch {
+ public:
+  /// The motion from `previous` to `current`, pictures of one size. None where nothing tells.
+  [[nodiscard]] CameraMotion find(const std::shared_ptr<const Picture>& current,
+                                  const std::shared_ptr<const Picture>& previous,
+                                  const Executor& executor);
+  /// The next frame has nothing to do with those before.
+  void reset();
+
+ private:
+  struct Reduced {
+    Image<uint8_t> small, tiny;
+  };
+
+  void reduce(const Picture& picture, const Executor& executor, Reduced& to) const;
+  [[nodiscard]] Point findShift(const Executor& executor);
+  void match(const CameraModel& camera, int reach, const Executor& executor);
+  void measure(const CameraMotion& camera, const Executor& executor);
+  void listMatches();
+  void listResiduals(const CameraModel& camera);
+  [[nodiscard]] double noise();
+
+  int side_ = 1;
+  CameraFrame frame_;  ///< Of the small pictures.
+  BlockGrid grid_;
+  Reduced now_, before_;
+  std::shared_ptr<const Picture> nowOf_;  ///< Whose pictures now_ holds.
+  CameraModel last_;
+  std::vector<uint32_t> rowBest_;
+  std::vector<Point> shifts_;
+  std::vector<BlockMatch> matches_;
+  std::vector<BlockSums> sums_;
+  std::vector<double> variances_;
+  std::vector<CameraSample> samples_;
+  CameraFitScratch scratch_;
+};
+
+}  // namespace rg
