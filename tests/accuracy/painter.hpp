@@ -2,7 +2,7 @@
 // Frames of a plan, and what is true in each of them.
 #pragma once
 
-#include "tests/accuracy/plan.hpp"
+#include "tests/accuracy/view.hpp"
 #include "tests/benchmarks/scene.hpp"
 
 #include <cstdint>
@@ -27,8 +27,10 @@ struct Fact {
 };
 
 struct Scene {
+  Size frame;
   std::vector<Fact> facts;
-  double cameraDx = 0, cameraDy = 0;  ///< Motion of the ground since the previous frame, in pixels.
+  Affine before;  ///< From this frame's pixels to where the same ground was in the previous one.
+  double cameraDx = 0, cameraDy = 0;  ///< By how much it moved at the frame's middle, in pixels.
 };
 
 class Painter {
@@ -44,8 +46,19 @@ class Painter {
   [[nodiscard]] const std::vector<int>& top() const { return top_; }
 
  private:
-  void paintGround(const Canvas& canvas, const Waypoint& view, const Box& box);
-  void paintActor(size_t index, const Waypoint& view, Scene& scene);
+  struct Parts {
+    float x = 0, y = 0;
+  };
+  void paintGround(const Canvas& canvas, const Affine& view, const Box& box);
+  void paintActor(size_t index, const Affine& view, Scene& scene);
+  void paintShifted(const Sprite& sprite, Place corner, int number);
+  void paintTurned(const Sprite& sprite, const Affine& inFrame, const RealBox& box, int number);
+  void paintObstacle(const Obstacle& obstacle, const Canvas& canvas, const Affine& view);
+  /// One pixel of the frame, from a sprite's four pixels from `from` on; of the left ones and the
+  /// upper ones the given parts.
+  void blend(Point at, const Sprite& sprite, Point from, Parts part, int number);
+  [[nodiscard]] size_t pixelAt(Point at) const;
+  void tellCamera(Scene& scene) const;
   void addNoise(bench::RawFrame& frame);
 
   Plan plan_;

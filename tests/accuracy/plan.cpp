@@ -27,7 +27,7 @@ struct Cast {
 class StillPlanner {
  public:
   StillPlanner(uint32_t seed, Size frame)
-      : dice_(seed, 2), plan_{frame, frame, 1, 0, kSecond, 4, {}, {}, {}} {
+      : dice_(seed, 2), plan_{frame, frame, 1, 0, kSecond, 4, {}, {}, {}, {}, 0, {}, {}} {
     plan_.camera = {{0, 0, 0}, {1e9, 0, 0}};
   }
 
@@ -253,6 +253,10 @@ std::optional<Waypoint> placeAt(const std::vector<Waypoint>& way, double frame) 
     return Waypoint{frame, p.x + part * (q.x - p.x), p.y + part * (q.y - p.y)};
   }
   return std::nullopt;
+}
+
+double Swing::at(double frame) const {
+  return middle + most * std::sin(perFrame * frame + phase);
 }
 
 std::optional<Waypoint> Actor::cornerAt(double frame) const {

@@ -29,6 +29,23 @@ struct Actor {
   [[nodiscard]] bool isSteady(double frame, double margin) const;
 };
 
+/// Something that stands still in front of everything, with the texture of the ground elsewhere.
+struct Obstacle {
+  double x = 0, y = 0, width = 0,
+         height = 0;              ///< On the canvas, while the camera is in its middle.
+  double donorX = 0, donorY = 0;  ///< Where its texture comes from.
+  Rgb tint{};
+};
+
+/// To and fro, as a pendulum swings.
+struct Swing {
+  double middle = 0, most = 0;  ///< From middle − most to middle + most.
+  double perFrame = 0;          ///< Of the phase, in radians.
+  double phase = 0;
+
+  [[nodiscard]] double at(double frame) const;
+};
+
 struct Plan {
   Size frame, canvas;
   double scale = 1;  ///< Pixels by those of the plan as it was drawn.
@@ -37,7 +54,13 @@ struct Plan {
   double noise = 4;
   std::vector<Actor> actors;
   std::vector<Box> pillars;      ///< Parts of the canvas that hide what has its feet above theirs.
-  std::vector<Waypoint> camera;  ///< Of the frame's upper left corner on the canvas.
+  std::vector<Waypoint> camera;  ///< Of the frame's upper left corner on the canvas, were it
+                                 ///< neither zoomed nor turned.
+  std::vector<Obstacle> obstacles;
+  double parallax = 0;  ///< Of the camera's way, the part by which obstacles move more than
+                        ///< the ground.
+  Swing zoom;           ///< Logarithm of how many times larger the picture is.
+  Swing roll;           ///< How far the frame is turned, in radians.
 };
 
 /// Plans are drawn for 25 frames a second (sampling.hpp).

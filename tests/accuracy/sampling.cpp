@@ -34,6 +34,10 @@ Plan sampled(Plan plan, const Sampling& sampling) {
     const int x = scaled(pillar.x, scale), y = scaled(pillar.y, scale);
     pillar = {x, y, scaled(pillar.right(), scale) - x, scaled(pillar.bottom(), scale) - y};
   }
+  for (Obstacle& o : plan.obstacles)
+    for (double* length : {&o.x, &o.y, &o.width, &o.height, &o.donorX, &o.donorY}) *length *= scale;
+  plan.zoom.perFrame /= rate;
+  plan.roll.perFrame /= rate;
   plan.frame = sampling.size;
   plan.canvas = {scaled(plan.canvas.width, scale), scaled(plan.canvas.height, scale)};
   plan.scale = scale;

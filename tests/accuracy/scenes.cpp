@@ -4,6 +4,7 @@
 #include "core/base/memory/pool.hpp"
 #include "core/objects/objects.hpp"
 #include "core/text/names.hpp"
+#include "tests/accuracy/hardships.hpp"
 #include "tests/accuracy/painter.hpp"
 #include "tests/accuracy/sampling.hpp"
 #include "tests/accuracy/verdict.hpp"
@@ -27,15 +28,28 @@ struct Options {
   uint32_t firstSeed = 1, lastSeed = 20;
   int least = 0;  ///< Scenes without a fault.
   Sampling sampling;
+  Hardships hardships;
   std::string background;  ///< A .y4m file; empty: a yard that follows from the seed.
   std::string pictures;    ///< A folder for frames with the boxes of truth and report.
   int every = 25;          ///< Of these, one in so many frames.
 };
 
 constexpr char kUsage[] =
-    "usage: scenes [--pan] [--gate N] [--seeds FIRST:LAST] [--size WxH] [--fps F] [--noise S]\n"
-    "              [--explain] [--digest] [--background FILE.y4m] [--pictures FOLDER] [--every N]\n"
+    "usage: scenes [--pan [--zoom PERCENT] [--roll DEGREES] [--cover PERCENT]\n"
+    "              [--parallax PERCENT]] [--gate N] [--seeds FIRST:LAST] [--size WxH] [--fps F]\n"
+    "              [--noise S] [--explain] [--digest] [--background FILE.y4m] [--pictures FOLDER]\n"
+    "              [--every N]\n"
     "  --pan         the camera moves and bgremove is left out (default: it stands still)\n"
+    "  --zoom        the picture also grows and shrinks, by at most so much a frame at 25 a "
+    "second,\n"
+    "                0 to 20, and up to half as large again (default: 0)\n"
+    "  --roll        the camera also turns to and fro, by at most so much a frame at 25 a second,\n"
+    "                0 to 20, and up to 30 degrees either way (default: 0)\n"
+    "  --cover       large things cover so much of the frame on average, 0 to 35 (default: 0, a "
+    "few\n"
+    "                small ones)\n"
+    "  --parallax    posts and hedges are nearer than the ground and move by so much faster with\n"
+    "                the pan, 0 to 100 (default: 0, there are none); reports of them are false\n"
     "  --gate        exit 1 when fewer than N scenes are without a fault\n"
     "  --seeds       which scenes (default: 1:20)\n"
     "  --size        of the frames (default: 640x480); a seed is the same scene at every size of\n"
@@ -138,8 +152,9 @@ void writePicture(const std::string& path, bench::RawFrame& frame, const Scene& 
 
 Painter painterOf(const Options& options, uint32_t seed) {
   const Size planned = plannedFrame(options.sampling.size);
-  Plan plan =
-      sampled(options.isPan ? planPan(seed, planned) : planStill(seed, planned), options.sampling);
+  Plan drawn = options.isPan ? hardened(planPan(seed, planned), seed, options.hardships)
+                             : planStill(seed, planned);
+  Plan plan = sampled(std::move(drawn), options.sampling);
   auto canvas = options.background.empty() ? makeYard(seed, plan.canvas, plan.scale)
                                            : valueOf(openClip(options.background, plan.canvas));
   return {std::move(plan), std::move(canvas), seed};
@@ -194,12 +209,14 @@ int run(const Options& options) {
     return 0;
   }
   int good = 0, count = 0;
-  double centroid = 0, worst = 0, idf1 = 0, found = 0, falseBoxes = 0;
+  double corners = 0, centroid = 0, worst = 0, idf1 = 0, found = 0, falseBoxes = 0;
   for (uint32_t seed = options.firstSeed; seed <= options.lastSeed; ++seed) {
     const Figures f = play(options, seed);
     std::printf("seed %u: IDF1 %.4f, found %.4f, false %.3f per frame", seed, f.idf1, f.recall,
                 f.falsePerFrame);
-    if (options.isPan) std::printf(", camera %.3f (worst %.3f) px", f.cameraPx, f.cameraWorstPx);
+    if (options.isPan)
+      std::printf(", camera %.3f (worst %.3f) px, corners %.4f", f.cameraPx, f.cameraWorstPx,
+                  f.corners);
     std::printf(", centroid %.2f px, hidden %.2f (worst %.2f) px%s\n", f.centroidPx, f.hiddenPx,
                 f.hiddenWorstPx, isGood(f, options.isPan) ? "" : "  <-");
     std::fflush(stdout);
@@ -207,6 +224,7 @@ int run(const Options& options) {
     idf1 += f.idf1;
     found += f.recall;
     falseBoxes += f.falsePerFrame;
+    corners += f.corners;
     centroid += f.centroidPx;
     worst = std::max(worst, f.hiddenWorstPx);
     ++count;
@@ -215,7 +233,12 @@ int run(const Options& options) {
   std::printf("good=%d of %d\nidf1=%.4f\nfound=%.4f\nfalse_per_frame=%.4f\n", good, count,
               idf1 / scenes, found / scenes, falseBoxes / scenes);
   std::printf("centroid_px=%.3f\nhidden_worst_px=%.2f\n", centroid / scenes, worst);
+  if (options.isPan) std::printf("corners=%.4f\n", corners / scenes);
   return good < options.least ? 1 : 0;
+}
+
+bool readNumber(const char* text, double least, double most, double& number) {
+  return std::sscanf(text, "%lf", &number) == 1 && number >= least && number <= most;
 }
 
 bool parse(int argc, char** argv, Options& options) {
@@ -246,11 +269,20 @@ bool parse(int argc, char** argv, Options& options) {
       continue;
     else if (name == "--fps" && std::sscanf(value, "%lf", &options.sampling.fps) == 1)
       continue;
+    else if (name == "--zoom" && readNumber(value, 0, 20, options.hardships.zoomPercent))
+      continue;
+    else if (name == "--roll" && readNumber(value, 0, 20, options.hardships.rollDegrees))
+      continue;
+    else if (name == "--cover" && readNumber(value, 0, 35, options.hardships.coverPercent))
+      continue;
+    else if (name == "--parallax" && readNumber(value, 0, 100, options.hardships.parallaxPercent))
+      continue;
     else if (name == "--noise" && std::sscanf(value, "%lf", &options.sampling.noise) == 1)
       continue;
     else
       return false;
   }
+  if (!options.isPan && !options.hardships.isPlain()) return false;
   return size.width >= 64 && size.height >= 64 && options.every > 0 && options.sampling.fps >= 1 &&
          options.sampling.fps <= 1000 && options.sampling.noise >= 0;
 }

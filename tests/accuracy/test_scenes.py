@@ -37,17 +37,27 @@ def main():
         [], ['--size', '320x240'], ['--fps', '12.5'], ['--noise', '8'], ['--every', '5'])}
     assert len(seen) == 5, 'an option changes nothing'
 
-    for kind in [], ['--pan']:
+    harder = {digests(scenes, '--pan', *first, '--size', '160x120', *other) for other in (
+        [], ['--zoom', '2'], ['--roll', '2'], ['--cover', '33'],
+        ['--parallax', '30'])}
+    assert len(harder) == 5, 'a hardship changes nothing'
+
+    for kind in [], ['--pan'], ['--pan', '--zoom', '1', '--roll', '1', '--cover', '33']:
         told = run(scenes, *kind, *first, '--size', '160x120', '--fps', '12.5')
         figures = [float(figure) for figure in LINE.match(told).groups()]
         assert 0 <= figures[0] <= 1 and 0 <= figures[1] <= 1, told
+        corners = re.search(r'^corners=([\d.]+)$', told, re.MULTILINE)
+        assert bool(corners) == ('--pan' in kind), told
+        assert not corners or 0 <= float(corners[1]) <= 1, told
 
-    for wrong in (['--fps', '0'], ['--size', '8x8'], ['--noise', '-1'], ['--unknown']):
+    for wrong in (['--fps', '0'], ['--size', '8x8'], ['--noise', '-1'], ['--zoom', '1'],
+                  ['--pan', '--roll', '-1'], ['--pan', '--cover', '90'], ['--unknown']):
         failed = subprocess.run([scenes, *wrong], capture_output=True, text=True)
         assert failed.returncode == 2 and failed.stderr.startswith('usage: '), wrong
     options = set(re.findall(r"--[a-z]+", failed.stderr))
-    assert options == {'--pan', '--gate', '--seeds', '--size', '--fps', '--noise', '--explain',
-                       '--digest', '--background', '--pictures', '--every'}, options
+    assert options == {'--pan', '--zoom', '--roll', '--cover', '--parallax', '--gate', '--seeds',
+                       '--size', '--fps', '--noise', '--explain', '--digest', '--background',
+                       '--pictures', '--every'}, options
 
 
 if __name__ == '__main__':

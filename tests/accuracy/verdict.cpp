@@ -11,9 +11,10 @@
 namespace rg::truth {
 namespace {
 
-constexpr double kSeen = 0.1;      // Less is hidden.
-constexpr double kClear = 0.9;     // Its centroid can be measured.
-constexpr double kMatch = 0.5;     // IoU.
+constexpr double kSeen = 0.1;   // Less is hidden.
+constexpr double kClear = 0.9;  // Its centroid can be measured.
+constexpr double kMatch = 0.5;  // IoU.
+constexpr double kCornerPx = 0.25;
 constexpr int kWithoutCamera = 2;  // Frames before the first motion that can be measured.
 
 double sharedArea(const RealBox& a, const Box& b) {
@@ -34,6 +35,20 @@ bool isToBeFound(const Fact& fact) {
 double distance(const Fact& fact, const objects::Object& object) {
   return std::hypot(double(object.centroidX) / objects::kPositionUnit - fact.centroidX,
                     double(object.centroidY) / objects::kPositionUnit - fact.centroidY);
+}
+
+/// How far off the camera is at that of the frame's corners where it is off most, in pixels.
+double worstCorner(const Scene& scene, const objects::Objects& objects) {
+  constexpr double kUnit = 1 << CameraMotion::kPlaceBits;
+  const Size size = scene.frame;
+  double worst = 0;
+  for (const int x : {0, size.width - 1})
+    for (const int y : {0, size.height - 1}) {
+      const Point told = objects.camera.before(x, y);
+      const Place was = scene.before(x, y);
+      worst = std::max(worst, std::hypot(told.x / kUnit - was.x, told.y / kUnit - was.y));
+    }
+  return worst;
 }
 
 }  // namespace
@@ -122,9 +137,11 @@ void Verdict::add(const Scene& scene, const objects::Objects& objects) {
     else
       spans.push_back({frames_, frames_, object.id});
   }
-  if (frames_ >= kWithoutCamera)
+  if (frames_ >= kWithoutCamera) {
+    corners_.add(worstCorner(scene, objects) <= kCornerPx ? 1 : 0);
     camera_.add(std::hypot(double(objects.cameraDx) / motion::kMotionUnit - scene.cameraDx,
                            double(objects.cameraDy) / motion::kMotionUnit - scene.cameraDy));
+  }
   ++frames_;
 }
 
@@ -173,6 +190,7 @@ Figures Verdict::figures() const {
   f.hiddenWorstPx = hidden.most;
   f.cameraPx = camera_.mean();
   f.cameraWorstPx = camera_.most;
+  f.corners = corners_.mean();
   return f;
 }
 

@@ -23,6 +23,7 @@ struct Figures {
   double hiddenWorstPx = 0;
   double cameraPx = 0;  ///< Mean distance of the camera's motion.
   double cameraWorstPx = 0;
+  double corners = 0;  ///< Share of frames whose camera is within 0.25 px at all four corners.
 };
 
 /// Compares frame by frame. To be found is what lies in the frame and isn't hidden altogether;
@@ -59,7 +60,7 @@ class Verdict {
   std::map<int, std::vector<Span>> spans_;
   std::map<uint64_t, std::vector<Span>> strays_;
   objects::Assignment assignment_;
-  Mean camera_;
+  Mean camera_, corners_;
   int64_t facts_ = 0, reports_ = 0, found_ = 0, false_ = 0;
   int frames_ = 0;
 };
