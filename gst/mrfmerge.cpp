@@ -12,9 +12,10 @@
  * texts) where these properties are set: regiongraph-object-new and regiongraph-object-end (id,
  * state, and the box as x, y, w, h in pixels; the last known ones at the end), regiongraph-merge
  * and regiongraph-split (ids, states, and the box round all of them), regiongraph-background-motion
- * (moving, dx, dy: pixels since the previous frame) and regiongraph-scene-changed. Things that
- * touch and part several times a second are told once: a merge or split that follows another one of
- * the same objects within two seconds is told when it has lasted as long. The events in the
+ * (moving, dx, dy: pixels since the previous frame in the middle of the frame; matrix: nine numbers
+ * as gst_region_objects_meta_get_camera_matrix() tells them) and regiongraph-scene-changed. Things
+ * that touch and part several times a second are told once: a merge or split that follows another
+ * one of the same objects within two seconds is told when it has lasted as long. The events in the
  * objects' meta and in regionwrite's lines are all of them.
  *
  * Where tens of thousands of regions are asked for and one touches most of the others, the search

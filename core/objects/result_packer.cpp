@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/objects/result_packer.hpp"
 
+#include "core/base/camera/camera_place.hpp"
 #include "core/base/memory/spare.hpp"
 
 #include <algorithm>
@@ -111,6 +112,7 @@ void ResultPacker::fill(const Objects& from, Objects& to) {
   planes_.pack(from.slots, to.slots, map.to);
   if (map.from == map.to) return;
   for (Object& object : to.objects) moveTo(map, object);
+  to.camera = moved(from.camera, wayAlong(map));
   to.cameraDx = narrowed(map.x(from.cameraDx));
   to.cameraDy = narrowed(map.y(from.cameraDy));
 }

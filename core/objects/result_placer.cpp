@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/objects/result_placer.hpp"
 
+#include "core/base/camera/camera_place.hpp"
 #include "core/base/mapping.hpp"
 
 #include <algorithm>
@@ -51,6 +52,17 @@ class Way {
     if (to_.isTransposed) std::swap(toX, toY);
     dx = narrowed(to_.isMirroredX ? -toX : toX);
     dy = narrowed(to_.isMirroredY ? -toY : toY);
+  }
+  [[nodiscard]] CameraMotion camera(const CameraMotion& from) const {
+    PixelWay way = wayAlong(map_);
+    way.x0 -= to_.part.x;
+    way.y0 -= to_.part.y;
+    if (to_.isTransposed) way = {way.yx, way.yy, way.y0, way.xx, way.xy, way.x0};
+    if (to_.isMirroredX)
+      way = {-way.xx, -way.xy, to_.size().width - 1 - way.x0, way.yx, way.yy, way.y0};
+    if (to_.isMirroredY)
+      way = {way.xx, way.xy, way.x0, -way.yx, -way.yy, to_.size().height - 1 - way.y0};
+    return moved(from, way);
   }
   void moveContour(std::vector<Point>& contour) const {
     const Box within = bounds();
@@ -204,7 +216,13 @@ std::vector<uint16_t> placeObjects(const Way& way, std::vector<Object>& objects)
 void fill(const Objects& from, const Way& way, const Placement& placement, Objects& to) {
   to.copyTables(from);
   to.motion = place(from.motion, placement);
+  to.camera = way.camera(from.camera);
   way.moveVector(to.cameraDx, to.cameraDy);
+  if (!to.camera.isUniform()) {  // The middle is another one.
+    const Point by = to.camera.at(way.bounds().width / 2, way.bounds().height / 2);
+    to.cameraDx = by.x;
+    to.cameraDy = by.y;
+  }
   const std::vector<uint16_t> numbers = placeObjects(way, to.objects);
   Image<uint16_t> slots = way.plane(from.slots);
   for (int y = 0; y < slots.height(); ++y)

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/text/json.hpp"
 
+#include "core/base/camera/camera_place.hpp"
 #include "core/base/mapping.hpp"
 #include "core/text/json_parts.hpp"
 #include "core/text/names.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <span>
 
 namespace rg::text {
@@ -73,15 +76,38 @@ void appendEvent(std::string& out, const objects::Event& event) {
   out += '}';
 }
 
+/// Row by row, as fine as CameraMotion's own numbers are.
+void appendMatrix(std::string& out, const CameraMotion& camera) {
+  constexpr int kDecimals = 9;
+  constexpr double kUnit = 1e9, kLargest = 9e9;  // 9e9 · 1e9 < 2^63
+  appendKey(out, "matrix");
+  out += '[';
+  for (const double value : matrixOf(camera)) {
+    appendComma(out);
+    appendDecimal(out, std::llround(std::clamp(value, -kLargest, kLargest) * kUnit), kDecimals);
+  }
+  out += ']';
+}
+
+void appendCamera(std::string& out, const objects::Objects& objects, const CameraMotion& camera,
+                  const FrameMap& map) {
+  appendPair(out, "camera", map.x(objects.cameraDx), map.y(objects.cameraDy),
+             objects::kPositionUnit);
+  if (camera.isUniform()) return;
+  out.back() = ',';
+  appendMatrix(out, camera);
+  out += '}';
+}
+
 }  // namespace
 
 void appendJson(std::string& out, const objects::Objects& objects, const FrameStamp& stamp,
                 Contours contours) {
   const FrameMap map = mapBetween(objects.size, stamp.size);
-  appendHead(out, objects.status, stamp, kJsonSchema);
+  const CameraMotion camera = moved(objects.camera, wayAlong(map));
+  appendHead(out, objects.status, stamp, camera.isUniform() ? kJsonSchema : kJsonSchemaWithMatrix);
   out += ',';
-  appendPair(out, "camera", map.x(objects.cameraDx), map.y(objects.cameraDy),
-             objects::kPositionUnit);
+  appendCamera(out, objects, camera, map);
   out += ",\"objects\":[";
   for (const objects::Object& object : objects.objects) {
     if (!objects::isListed(object.state)) continue;

@@ -27,6 +27,12 @@ void appendPadded(std::string& out, uint64_t value, size_t width) {
   out.append(digits.data(), end);
 }
 
+int64_t powerOfTen(int exponent) {
+  int64_t power = 1;
+  for (int i = 0; i < exponent; ++i) power *= 10;
+  return power;
+}
+
 }  // namespace
 
 void appendInteger(std::string& out, int64_t value) {
@@ -39,14 +45,17 @@ void appendUnsigned(std::string& out, uint64_t value) {
 
 void appendFixed(std::string& out, int64_t numerator, int64_t denominator, int decimals) {
   assert(denominator > 0 && decimals >= 1 && decimals <= 6);
-  int64_t unit = 1;
-  for (int i = 0; i < decimals; ++i) unit *= 10;
-  const int64_t value = divideRounded(numerator * unit, denominator);
+  appendDecimal(out, divideRounded(numerator * powerOfTen(decimals), denominator), decimals);
+}
+
+void appendDecimal(std::string& out, int64_t value, int decimals) {
+  assert(decimals >= 1 && decimals <= 18);
+  const auto unit = static_cast<uint64_t>(powerOfTen(decimals));
   const auto magnitude = static_cast<uint64_t>(value < 0 ? -value : value);
   if (value < 0) out += '-';
-  appendDigits(out, magnitude / static_cast<uint64_t>(unit));
+  appendDigits(out, magnitude / unit);
   out += '.';
-  appendPadded(out, magnitude % static_cast<uint64_t>(unit), static_cast<size_t>(decimals));
+  appendPadded(out, magnitude % unit, static_cast<size_t>(decimals));
 }
 
 void appendUtc(std::string& out, uint64_t nsSince1970) {

@@ -36,6 +36,9 @@ void appendUnsigned(std::string& out, uint64_t value);
 /// halves away from zero; zero has no sign. denominator > 0; |numerator| · 10^decimals < 2^63.
 void appendFixed(std::string& out, int64_t numerator, int64_t denominator, int decimals);
 
+/// value / 10^decimals, with `decimals` digits after the point (1 … 18); zero has no sign.
+void appendDecimal(std::string& out, int64_t value, int decimals);
+
 /// RFC 3339, in UTC with nanoseconds: 2026-11-21T11:25:00.000000000Z.
 void appendUtc(std::string& out, uint64_t nsSince1970);
 

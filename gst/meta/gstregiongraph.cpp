@@ -2,8 +2,10 @@
 // The public functions: results as plain C values.
 #include "gst/meta/gstregiongraph.h"
 
+#include "core/base/camera/camera_place.hpp"
 #include "gst/meta/result_meta.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -343,6 +345,14 @@ void gst_region_objects_meta_get_camera_motion(GstRegionObjectsMeta* meta, gdoub
   constexpr double kUnit = rg::motion::kMotionUnit;
   *dx = resultOf<rg::objects::Objects>(meta).cameraDx / kUnit;
   *dy = resultOf<rg::objects::Objects>(meta).cameraDy / kUnit;
+}
+
+gdouble* gst_region_objects_meta_get_camera_matrix(GstRegionObjectsMeta* meta) {
+  g_return_val_if_fail(meta, nullptr);
+  const rg::CameraMatrix matrix = rg::matrixOf(resultOf<rg::objects::Objects>(meta).camera);
+  auto* numbers = g_new(gdouble, matrix.size());
+  std::copy(matrix.begin(), matrix.end(), numbers);
+  return numbers;
 }
 
 gboolean gst_region_objects_meta_map(GstRegionObjectsMeta* meta, GstRegionPlane* plane,

@@ -345,11 +345,23 @@ GST_REGION_API guint64 gst_region_objects_meta_get_region_object(GstRegionObject
 /**
  * gst_region_objects_meta_get_camera_motion:
  * @meta: an objects meta
- * @dx: (out): pixels that the background moved to the right since the previous frame
- * @dy: (out): pixels that the background moved downwards
+ * @dx: (out): pixels that the middle of the background moved right since the previous frame
+ * @dy: (out): pixels that the middle of the background moved downwards
  */
 GST_REGION_API void gst_region_objects_meta_get_camera_motion(GstRegionObjectsMeta* meta,
                                                               gdouble* dx, gdouble* dy);
+/**
+ * gst_region_objects_meta_get_camera_matrix:
+ * @meta: an objects meta
+ *
+ * The homography m: background at pixel (x, y) was at ((m0 x + m1 y + m2) / w, (m3 x + m4 y + m5)
+ * / w) in the frame before, w = m6 x + m7 y + m8; (0, 0) is the middle of the left upper pixel.
+ *
+ * Returns: (transfer full) (array fixed-size=9): m, row by row, m8 is 1; g_free() frees it
+ *
+ * Since: 0.2
+ */
+GST_REGION_API gdouble* gst_region_objects_meta_get_camera_matrix(GstRegionObjectsMeta* meta);
 /**
  * gst_region_objects_meta_map:
  * @meta: an objects meta

@@ -28,6 +28,14 @@ template <class Archive, Like<graph::Colour> T>
 void pass(Archive& archive, T& colour) {
   archive(colour.red, colour.green, colour.blue);
 }
+template <class Archive, Like<CameraMotion> T>
+void pass(Archive& archive, T& camera) {
+  CameraMotion::Matrix matrix = camera.matrix();
+  Point origin = camera.origin();
+  for (int64_t& number : matrix) archive(number);
+  archive(origin);
+  if constexpr (!std::is_const_v<T>) camera = CameraMotion(matrix, origin);
+}
 
 template <class Archive, Like<background::Foreground> T>
 void pass(Archive& archive, T& result) {
@@ -84,7 +92,7 @@ template <class Archive, Like<objects::Objects> T>
 void pass(Archive& archive, T& result) {
   archive(result.size, result.status, result.objects, result.slots, result.regionObject,
           result.regionExpected, result.regionGroup, result.arcs, result.groundGroup, result.ground,
-          result.isCutShort, result.cameraDx, result.cameraDy, result.events);
+          result.isCutShort, result.camera, result.cameraDx, result.cameraDy, result.events);
 }
 
 /// The last value of each enum.

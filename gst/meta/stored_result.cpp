@@ -200,7 +200,7 @@ bool isSound(const objects::Objects& result) {
   const size_t count = result.regionObject.size();
   return result.regionExpected.size() == count && result.regionGroup.size() == count &&
          (result.ground.empty() || result.ground.size() == count) &&
-         fits(result.slots, result.size, result.objects.size());
+         fits(result.slots, result.size, result.objects.size()) && result.camera.isSafe();
 }
 
 /// What is not there is as if it had been packed: no stage works on it.

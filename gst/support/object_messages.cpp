@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "gst/support/object_messages.hpp"
 
+#include "core/base/camera/camera_place.hpp"
 #include "core/base/mapping.hpp"
 #include "core/text/text.hpp"
 
@@ -35,7 +36,7 @@ void ObjectMessages::tell(const objects::Objects& objects, Size frame, const Fra
   see(objects, frame);
   for (const objects::Event& event : objects.events) tellEvent(event);
   for (const Contact& contact : contacts_.take(timeNs())) tellContact(contact);
-  if (objects.status == Status::Ok) tellCamera(objects);
+  if (objects.status == Status::Ok) tellCamera(objects, frame);
   std::erase_if(seen_, [&](const auto& entry) {
     return entry.second.frame != frames_ && !alive_.contains(entry.first);
   });
@@ -122,16 +123,23 @@ void ObjectMessages::tellContact(const Contact& contact) const {
   post(fields);
 }
 
-void ObjectMessages::tellCamera(const objects::Objects& objects) {
+void ObjectMessages::tellCamera(const objects::Objects& objects, Size frame) {
   const int speed = std::max(std::abs(objects.cameraDx), std::abs(objects.cameraDy));
   const bool isMoving = isCameraMoving_ ? speed >= kStillBelow : speed >= kMovingFrom;
   if (isMoving == isCameraMoving_) return;
   isCameraMoving_ = isMoving;
   constexpr double kUnit = motion::kMotionUnit;
   constexpr const char* kName = "regiongraph-background-motion";
-  post(gst_structure_new(kName, "moving", G_TYPE_BOOLEAN, isMoving, "dx", G_TYPE_DOUBLE,
-                         objects.cameraDx / kUnit, "dy", G_TYPE_DOUBLE, objects.cameraDy / kUnit,
-                         nullptr));
+  GstStructure* fields = gst_structure_new(kName, "moving", G_TYPE_BOOLEAN, isMoving, "dx",
+                                           G_TYPE_DOUBLE, objects.cameraDx / kUnit, "dy",
+                                           G_TYPE_DOUBLE, objects.cameraDy / kUnit, nullptr);
+  GValue matrix = G_VALUE_INIT;
+  g_value_init(&matrix, GST_TYPE_ARRAY);
+  const CameraMotion shown = moved(objects.camera, wayAlong(mapBetween(objects.size, frame)));
+  for (const double number : matrixOf(shown))
+    append(matrix, G_TYPE_DOUBLE, [&](GValue* value) { g_value_set_double(value, number); });
+  gst_structure_take_value(fields, "matrix", &matrix);
+  post(fields);
 }
 
 }  // namespace rg

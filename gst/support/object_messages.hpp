@@ -39,7 +39,7 @@ class ObjectMessages {
   void post(GstStructure* fields) const;
   void tellObject(const char* name, uint64_t id) const;
   void tellContact(const Contact& contact) const;
-  void tellCamera(const objects::Objects& objects);
+  void tellCamera(const objects::Objects& objects, Size frame);
   [[nodiscard]] std::optional<int64_t> timeNs() const;
 
   GstBaseTransform* const element_;

@@ -48,6 +48,16 @@ objects::Objects makeObjects() {
   return objects;
 }
 
+/// A camera that zooms and rolls.
+objects::Objects makeZoom() {
+  constexpr int64_t kOne = CameraMotion::kOne;
+  objects::Objects objects = makeObjects();
+  objects.camera = {{kOne - 7'000'000, 11'000'000, 3 * kOne, -11'000'000, kOne - 7'000'000,
+                     -kOne / 3, 10'000, -20'000, kOne},
+                    {160, 120}};
+  return objects;
+}
+
 /// Numbers as far out as their types go.
 objects::Objects makeExtremes() {
   objects::Objects objects = makeObjects();
@@ -124,6 +134,8 @@ void printObjects() {
   }
   text::appendJson(out, objects, {4, {320, 240}, 0, {}, &kOrigin}, Contours::Omit);
   text::appendJson(out, {}, {5, {320, 240}, 0, {}, &kTagged}, Contours::Omit);
+  text::appendJson(out, makeZoom(), {6, {320, 240}, 0, {}}, Contours::Omit);
+  text::appendJson(out, makeZoom(), {7, {640, 360}, 0, {}, &kTagged}, Contours::Omit);
   text::appendJson(out, makeExtremes(), {kLatest, {16384, 16384}, kLatest, kLatest},
                    Contours::Write);
   std::cout << out;

@@ -41,16 +41,23 @@ def picture(number, noise):
     return yard.astype(numpy.uint8)
 
 
-def pull(lines):
+def panned(number, _):
+    """What a camera sees that turns to the right by three pixels a frame."""
+    y, x = numpy.mgrid[:SIZE[1], 3 * number:SIZE[0] + 3 * number]
+    grey = 40 + (x // 9 * 7919 + y // 9 * 104729) * 2654435761 % 2**32 // 2**8 % 160
+    return numpy.repeat(grey[:, :, numpy.newaxis], 3, axis=2).astype(numpy.uint8)
+
+
+def pull(lines, stages='bgremove ! hsvsegment', paint=picture):
     """The sample that is looked at, of a pipeline that is gone, and regionwrite's line of it."""
     pipeline = Gst.parse_launch(
-        f'appsrc name=source format=time caps={CAPS} ! bgremove ! hsvsegment ! srg ! prmmotion ! '
-        f'mrfmerge ! regionwrite contours=true location={lines} ! appsink name=sink sync=false')
+        f'appsrc name=source format=time caps={CAPS} ! {stages} ! srg ! prmmotion ! mrfmerge ! '
+        f'regionwrite contours=true location={lines} ! appsink name=sink sync=false')
     source, sink = pipeline.get_by_name('source'), pipeline.get_by_name('sink')
     pipeline.set_state(Gst.State.PLAYING)
     noise, samples = numpy.random.default_rng(7), []
     for number in range(FRAMES):
-        buffer = Gst.Buffer.new_wrapped(picture(number, noise).tobytes())
+        buffer = Gst.Buffer.new_wrapped(paint(number, noise).tobytes())
         buffer.pts, buffer.duration = number * Gst.SECOND // 25, Gst.SECOND // 25
         source.push_buffer(buffer)
     source.end_of_stream()
@@ -125,6 +132,25 @@ class Typelib(unittest.TestCase):
         graph = meta_of(self.sample, 'graph')
         areas = [graph.get_region(index)[1].area for index in range(graph.get_n_regions())]
         self.assertEqual(numpy.bincount(labels.ravel())[1:].tolist(), areas)
+
+    def test_a_camera_that_stands_still_has_the_unit_matrix(self):
+        self.assertEqual(meta_of(self.sample, 'objects').get_camera_matrix(),
+                         [1, 0, 0, 0, 1, 0, 0, 0, 1])
+
+    def test_the_matrix_of_a_camera_outlives_the_buffer(self):
+        with tempfile.TemporaryDirectory() as folder:
+            sample, line = pull(pathlib.Path(folder, 'lines.jsonl'), 'hsvsegment', panned)
+        matrix = meta_of(sample, 'objects').get_camera_matrix()
+        del sample
+        gc.collect()
+        self.assertEqual(len(matrix), 9)
+        self.assertEqual(matrix[8], 1)
+        middle = SIZE[0] // 2, SIZE[1] // 2, 1
+        rows = [sum(number * at for number, at in zip(matrix[i:i + 3], middle)) for i in (0, 3, 6)]
+        self.assertAlmostEqual(rows[0] / rows[2] - middle[0], 3, delta=0.3)
+        for at, axis in enumerate('xy'):
+            moved = middle[at] - rows[at] / rows[2]
+            self.assertAlmostEqual(moved, line['camera'][axis], delta=0.05)
 
     def test_bytes_outlive_the_buffer(self):
         with tempfile.TemporaryDirectory() as folder:

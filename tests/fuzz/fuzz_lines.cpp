@@ -56,6 +56,18 @@ std::shared_ptr<const graph::Graph> randomGraph(Size size, Bytes& bytes) {
   return graph;
 }
 
+/// One that films, or whatever nine numbers are.
+CameraMotion randomCamera(Bytes& bytes) {
+  CameraMotion::Matrix matrix = CameraMotion().matrix();
+  const bool isReal = bytes.flip();
+  for (int64_t& number : matrix)
+    number = isReal ? number + bytes.take<int32_t>() / 64 : bytes.take<int64_t>();
+  if (bytes.flip()) matrix.back() = CameraMotion::kOne;
+  const Point origin = isReal ? Point{bytes.take<uint8_t>(), bytes.take<uint8_t>()}
+                              : Point{bytes.take<int32_t>(), bytes.take<int32_t>()};
+  return {matrix, origin};
+}
+
 objects::Objects randomObjects(Bytes& bytes) {
   objects::Objects objects;
   objects.size = {bytes.between(1, 4096), bytes.between(1, 4096)};
@@ -88,6 +100,7 @@ objects::Objects randomObjects(Bytes& bytes) {
         {static_cast<objects::EventKind>(bytes.between(0, 3)), {bytes.take<uint64_t>()}});
   objects.cameraDx = bytes.take<int32_t>() / 1024;
   objects.cameraDy = bytes.take<int32_t>() / 1024;
+  if (bytes.flip()) objects.camera = randomCamera(bytes);
   return objects;
 }
 
@@ -103,6 +116,14 @@ text::FrameStamp randomStamp(Bytes& bytes) {
 void demandJson(const std::string& line, const char* what) {
   if (nlohmann::json::accept(line)) return;
   std::fprintf(stderr, "no JSON, %s: %s\n", what, line.c_str());
+  std::abort();
+}
+
+void demandCamera(const std::string& line) {
+  const auto camera = nlohmann::json::parse(line)["camera"];
+  const bool isUniform = !camera.contains("matrix");
+  if (isUniform || (camera["matrix"].size() == 9 && camera["matrix"][8] == 1.0)) return;
+  std::fprintf(stderr, "no camera: %s\n", line.c_str());
   std::abort();
 }
 
@@ -130,6 +151,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   text::appendRegions(regions, {objects.motion->graph.get(), objects.motion.get(), &objects},
                       stamp);
   fuzz::demandJson(json, "objects");
+  fuzz::demandCamera(json);
   fuzz::demandJson(graph, "graph");
   fuzz::demandColumns(mot, 10);
   fuzz::demandColumns(regions, 13);

@@ -5,6 +5,7 @@
 
 #include <gst/video/gstvideometa.h>
 
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 
@@ -120,6 +121,10 @@ void readObjects(GstBuffer* buffer) {
   gst_region_objects_meta_get_region_object(meta, 0);
   gdouble dx = 0, dy = 0;
   gst_region_objects_meta_get_camera_motion(meta, &dx, &dy);
+  gdouble* matrix = gst_region_objects_meta_get_camera_matrix(meta);
+  for (int i = 0; i < 9; ++i) demand(std::isfinite(matrix[i]), "a camera's numbers are finite");
+  demand(matrix[8] == 1, "a camera's last number is 1");
+  g_free(matrix);
   demand(mapAndRead(meta, gst_region_objects_meta_map) <= objects,
          "slots are at most the number of objects");
 }

@@ -121,6 +121,32 @@ TEST(Messages, WithoutACaptureTimeTellNone) {
   EXPECT_FALSE(gst_structure_has_field(structureOf(message), "utc"));
 }
 
+/// A camera that begins to pan and zoom, told as of a frame twice as large.
+TEST(Messages, OfTheBackgroundsMotionHaveTheCamerasMatrix) {
+  GstElement* element = gst_element_factory_make("mrfmerge", nullptr);
+  gst_object_ref_sink(element);
+  const BusPtr bus(gst_bus_new());
+  gst_element_set_bus(element, bus.get());
+  ObjectMessages messages(GST_BASE_TRANSFORM(element), GST_CAT_DEFAULT);
+  constexpr int64_t kOne = CameraMotion::kOne;
+  const auto objects = testing::objects({64, 48}, {});
+  objects->cameraDx = -32;
+  objects->camera = {{kOne / 2, 0, 2 * kOne, 0, kOne / 2, 0, 0, 0, kOne}, {32, 24}};
+  messages.tell(*objects, {128, 96}, {});
+  const MessagePtr message(gst_bus_pop_filtered(bus.get(), GST_MESSAGE_ELEMENT));
+  const GstStructure* fields = structureOf(message);
+  ASSERT_TRUE(fields);
+  EXPECT_TRUE(gst_structure_has_name(fields, "regiongraph-background-motion"));
+  const GValue* matrix = gst_structure_get_value(fields, "matrix");
+  ASSERT_TRUE(matrix);
+  std::vector<double> numbers;
+  for (guint i = 0; i < gst_value_array_get_size(matrix); ++i)
+    numbers.push_back(g_value_get_double(gst_value_array_get_value(matrix, i)));
+  EXPECT_EQ(numbers, (std::vector<double>{.5, 0, 36.25, 0, .5, 24.25, 0, 0, 1}));
+  gst_element_set_bus(element, nullptr);
+  gst_object_unref(element);
+}
+
 /// A merge, told by the elements of hand-made results: the box is the one round both.
 TEST(Messages, OfMergesTellTheBoxRoundAll) {
   GstElement* element = gst_element_factory_make("mrfmerge", nullptr);

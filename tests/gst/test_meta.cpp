@@ -75,7 +75,7 @@ TEST(MotionMeta, TellsPixelsAndShares) {
 }
 
 TEST(ObjectsMeta, TellsObjectsParentsAndContours) {
-  const BufferPtr buffer(gst_buffer_new());
+  BufferPtr buffer(gst_buffer_new());
   auto objects = std::make_shared<objects::Objects>();
   objects::Object object;
   object.id = 7;
@@ -89,6 +89,7 @@ TEST(ObjectsMeta, TellsObjectsParentsAndContours) {
   objects->objects = {object};
   objects->regionObject = {0, 7};
   objects->cameraDx = 24;
+  objects->camera = CameraMotion(Point{24, -8});
   attachResult<objects::Objects>(buffer.get(), objects);
   GstRegionObjectsMeta* meta = gst_buffer_get_region_objects_meta(buffer.get());
   GstRegionObject out;
@@ -117,6 +118,24 @@ TEST(ObjectsMeta, TellsObjectsParentsAndContours) {
   gst_region_objects_meta_get_camera_motion(meta, &dx, &dy);
   EXPECT_DOUBLE_EQ(dx, 1.5);
   EXPECT_DOUBLE_EQ(dy, 0.0);
+  gdouble* matrix = gst_region_objects_meta_get_camera_matrix(meta);
+  buffer.reset();
+  EXPECT_EQ((std::vector<gdouble>{matrix, matrix + 9}),
+            (std::vector<gdouble>{1, 0, -1.5, 0, 1, .5, 0, 0, 1}));
+  g_free(matrix);
+}
+
+TEST(ObjectsMeta, TellsTheCameraFromTheLeftUpperCorner) {
+  const BufferPtr buffer(gst_buffer_new());
+  constexpr int64_t kOne = CameraMotion::kOne;
+  auto objects = std::make_shared<objects::Objects>();
+  objects->camera = {{kOne / 2, 0, 0, 0, kOne / 2, kOne, 0, 0, kOne}, {32, 24}};
+  attachResult<objects::Objects>(buffer.get(), objects);
+  gdouble* matrix =
+      gst_region_objects_meta_get_camera_matrix(gst_buffer_get_region_objects_meta(buffer.get()));
+  EXPECT_EQ((std::vector<gdouble>{matrix, matrix + 9}),
+            (std::vector<gdouble>{.5, 0, 16, 0, .5, 13, 0, 0, 1}));
+  g_free(matrix);
 }
 
 std::shared_ptr<background::Foreground> smallMask() {

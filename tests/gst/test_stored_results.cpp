@@ -91,6 +91,17 @@ TEST(StoredObjects, KeepTheirPlaneAndTheirStory) {
     for (int x = 0; x < 64; ++x) ASSERT_EQ(slots.at(x, y), list->slots.at(x, y));
 }
 
+TEST(StoredObjects, KeepTheCamera) {
+  constexpr int64_t kOne = CameraMotion::kOne;
+  auto list = testing::objects({64, 48}, {});
+  list->camera = {{kOne - 5, 7, -123'456'789'012, -7, kOne + 5, 3, 9, -9, kOne}, {32, -24}};
+  const auto back = restore<objects::Objects>(store(*list));
+  ASSERT_TRUE(back);
+  EXPECT_EQ(back->camera, list->camera);
+  list->camera = {{kOne, 0, 0, 0, kOne, 0, 0, 0, kOne + 1}, {}};
+  EXPECT_FALSE(restore<objects::Objects>(store(*list))) << "what can't be computed with";
+}
+
 TEST(StoredResults, ThatContradictEachOtherAreNotJoined) {
   const auto graph = testing::graph({64, 48});
   motion::Motion motion;

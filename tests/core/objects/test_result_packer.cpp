@@ -159,6 +159,25 @@ TEST_F(ResultPackerTest, MarksAllAsPackedAndDropsWhatOnlyStagesNeed) {
   EXPECT_TRUE(graph.runs.list.empty());
 }
 
+/// A picture of half the frame's width and all its height.
+TEST(ResultPacker, TellsTheCameraOfTheWholeFrame) {
+  constexpr int64_t kOne = CameraMotion::kOne;
+  auto objects = std::make_shared<objects::Objects>();
+  objects->size = {64, 48};
+  objects->camera = {{kOne / 2, 0, kOne, kOne / 8, kOne, 3 * kOne, kOne / 1024, 0, kOne}, {32, 24}};
+  objects::ResultPacker packer;
+  packer.showIn({128, 48});
+  const auto packed = packer.pack<objects::Objects>(objects);
+  for (const Point p : {Point{0, 0}, Point{63, 11}, Point{40, 47}}) {
+    // Of the two pixels that p becomes the left one lies half a pixel left of its centre.
+    const Point left = packed->camera.before(2 * p.x, p.y);
+    const Point right = packed->camera.before(2 * p.x + 1, p.y);
+    const Point was = objects->camera.before(p.x, p.y);
+    EXPECT_NEAR((left.x + right.x) / 2, 2 * was.x + 128, 4) << p.x;
+    EXPECT_NEAR((left.y + right.y) / 2, was.y, 2) << p.x;
+  }
+}
+
 TEST_F(ResultPackerTest, PacksOneResultOnceInAFrame) {
   const auto objects = next();
   const auto labels = packer_.pack(objects->motion->graph->labels);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Results of a part of the frame, or of a turned one, against what is seen there pixel by pixel.
+#include "core/base/camera/camera_place.hpp"
 #include "core/objects/placement_matrix.hpp"
 #include "core/objects/result_placer.hpp"
 
@@ -127,6 +128,34 @@ TEST_P(EveryTurn, KeepsContoursClockwise) {
     twiceArea += int64_t{p.x} * q.y - int64_t{q.x} * p.y;
   }
   EXPECT_EQ(twiceArea, 2 * 3 * 4);  // Of the centres; y grows downwards.
+}
+
+/// A zoom and a roll: each pixel comes from where it came from before.
+TEST_P(EveryTurn, TurnsTheCameraAsPixels) {
+  constexpr int64_t kOne = CameraMotion::kOne;
+  auto zoomed = std::make_shared<Objects>(Objects{});
+  zoomed->copyFrom(*scene());
+  zoomed->camera = {{kOne * 9 / 10, kOne / 50, kOne / 3, -kOne / 40, kOne * 95 / 100, -kOne / 5,
+                     kOne / 1000, -kOne / 800, kOne},
+                    {6, 4}};
+  const Placement to = placement({2, 1, 7, 8});
+  const auto placed = place<Objects>(zoomed, to);
+  const auto before = [](const CameraMotion& camera, Point p) {
+    const CameraMatrix m = matrixOf(camera);
+    const double w = m[6] * p.x + m[7] * p.y + m[8];
+    return std::pair((m[0] * p.x + m[1] * p.y + m[2]) / w, (m[3] * p.x + m[4] * p.y + m[5]) / w);
+  };
+  for (const Point p : {Point{0, 0}, Point{6, 0}, Point{0, 6}, Point{5, 4}}) {
+    auto [x, y] = before(placed->camera, p);
+    if (to.isMirroredX) x = to.size().width - 1 - x;
+    if (to.isMirroredY) y = to.size().height - 1 - y;
+    if (to.isTransposed) std::swap(x, y);
+    const auto [wasX, wasY] = before(zoomed->camera, to.sourceOf(p));
+    EXPECT_NEAR(x + to.part.x, wasX, 1e-6);
+    EXPECT_NEAR(y + to.part.y, wasY, 1e-6);
+  }
+  const Point atMiddle = placed->camera.at(to.size().width / 2, to.size().height / 2);
+  EXPECT_EQ((Point{placed->cameraDx, placed->cameraDy}), atMiddle);
 }
 
 INSTANTIATE_TEST_SUITE_P(Turns, EveryTurn, ::testing::Range(0, 8));

@@ -167,6 +167,53 @@ TEST(Json, MapsToTheSizeOfTheFrame) {
   EXPECT_NE(line.find(R"("contour":[[0,5],[34,5],[34,25]])"), std::string::npos);
 }
 
+CameraMotion zoom() {
+  constexpr int64_t kOne = CameraMotion::kOne;
+  return {{kOne / 2, 0, kOne * 3, 0, kOne / 2, -kOne / 4, kOne / 65536, 0, kOne}, {160, 120}};
+}
+
+TEST(Json, TellsWhereTheCameraIsMoreThanAShift) {
+  objects::Objects objects = twoObjects();
+  objects.camera = zoom();
+  const auto line = json(objects, {1, {320, 240}, {}, {}});
+  EXPECT_TRUE(line.starts_with(R"({"schema":"1.2","frame":1,)"));
+  // w = 1 − 160 / 65536 at the left edge.
+  EXPECT_NE(line.find(R"("camera":{"x":-0.50,"y":0.00,"matrix":[0.503671072,0.000000000,)"
+                      R"(82.811551640,0.001835536,0.501223691,59.602545277,0.000015296,)"
+                      R"(0.000000000,1.000000000]},"objects")"),
+            std::string::npos)
+      << line;
+}
+
+TEST(Json, AShiftHasNoMatrixHoweverFineAndScaled) {
+  objects::Objects objects = twoObjects();
+  objects.camera = {
+      {CameraMotion::kOne, 0, 12345, 0, CameraMotion::kOne, 0, 0, 0, CameraMotion::kOne},
+      {160, 120}};
+  for (const Size size : {Size{320, 240}, {123, 457}})
+    EXPECT_EQ(json(objects, {1, size, {}, {}}), json(twoObjects(), {1, size, {}, {}}));
+}
+
+TEST(Json, MapsTheCameraToTheSizeOfTheFrame) {
+  objects::Objects objects = twoObjects();
+  objects.camera = zoom();
+  const auto line = json(objects, {1, {640, 240}, {}, {}});
+  EXPECT_NE(line.find(R"("matrix":[0.503676836,0.000000000,165.871898685,0.000917775,)"
+                      R"(0.501225612,59.602313749,0.000007648,0.000000000,1.000000000]})"),
+            std::string::npos)
+      << line;
+}
+
+TEST(Json, ACameraOfNonsenseIsWrittenAsNone) {
+  objects::Objects objects = twoObjects();
+  CameraMotion::Matrix matrix{};
+  for (const int64_t value : {INT64_MIN, INT64_MAX, int64_t{0}}) {
+    matrix.fill(value);
+    objects.camera = {matrix, {INT32_MIN, INT32_MAX}};
+    EXPECT_EQ(json(objects, {1, {320, 240}, {}, {}}), json(twoObjects(), {1, {320, 240}, {}, {}}));
+  }
+}
+
 TEST(Json, LeavesOutWhatIsNotSure) {
   objects::Objects objects = twoObjects();
   objects.objects[0].state = objects::ObjectState::New;
