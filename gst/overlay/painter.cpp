@@ -37,11 +37,13 @@ Box labelExtent(const Figure& figure, const Layout& layout) {
 
 void Painter::forget() {
   trails_.clear();
+  grid_.clear();
   composition_.reset();
   pool_.drop();
 }
 
 void Painter::follow(const objects::Objects& objects, int64_t nowNs, double trailLengthS) {
+  grid_.advance(objects);
   trails_.advance(objects, nowNs, static_cast<int64_t>(trailLengthS * GST_SECOND));
 }
 
@@ -50,7 +52,7 @@ CompositionPtr Painter::paint(const Scene& scene, const Views& views) {
   int64_t sum = 0;
   for (const Box& extent : extents_) sum += extent.area();
   for (const Figure& figure : figures()) sum += labelExtent(figure, layout).area();
-  if (hasGraphView(scene, views) || sum > scene.frame.area())
+  if (hasGrid(scene, views) || hasGraphView(scene, views) || sum > scene.frame.area())
     paintWhole(scene, views, layout);
   else
     paintEach(layout);
@@ -77,6 +79,11 @@ Layout Painter::layOutAll(const Scene& scene, const Views& views) {
   return layout;
 }
 
+bool Painter::hasGrid(const Scene& scene, const Views& views) const {
+  return views.grid && scene.objects && !grid_.size().isEmpty() &&
+         scene.objects->size == grid_.size();
+}
+
 Figure& Painter::nextFigure() {
   if (figureCount_ == figures_.size()) figures_.emplace_back();
   return figures_[figureCount_++];
@@ -84,6 +91,7 @@ Figure& Painter::nextFigure() {
 
 void Painter::paintWhole(const Scene& scene, const Views& views, const Layout& layout) {
   Canvas canvas = addRectangle(boundsOf(scene.frame), layout.style);
+  if (hasGrid(scene, views)) drawGrid(grid_, layout.map, canvas);
   drawGraphView(scene, views, canvas);
   for (const Figure& figure : figures()) draw(figure, layout, canvas);
   for (const Figure& figure : figures()) drawLabel(figure, canvas);

@@ -5,6 +5,7 @@
 #include "core/base/memory/pool.hpp"
 #include "core/objects/objects.hpp"
 #include "gst/overlay/figure.hpp"
+#include "gst/overlay/ground_grid.hpp"
 
 #include <gst/video/video-overlay-composition.h>
 
@@ -19,6 +20,7 @@ namespace rg::overlay {
 /// What is drawn, and how large.
 struct Views : Parts {
   bool graph = false;
+  bool grid = false;  ///< On the ground, where there are objects' results.
   double trailLengthS = 2.0;
   double scale = 1.0;
   std::string caption;  ///< UTF-8, in the left upper corner.
@@ -45,7 +47,7 @@ using CompositionPtr = std::unique_ptr<GstVideoOverlayComposition, Unref>;
 /// nobody reads it.
 class Painter {
  public:
-  /// The objects of a frame that has passed, drawn or not: trails go on.
+  /// The objects of a frame that has passed, drawn or not: trails and the grid go on.
   void follow(const objects::Objects& objects, int64_t nowNs, double trailLengthS);
   /// Also drops a drawing that was begun and the memory for drawings.
   void forget();
@@ -55,6 +57,7 @@ class Painter {
 
  private:
   [[nodiscard]] Layout layOutAll(const Scene& scene, const Views& views);
+  [[nodiscard]] bool hasGrid(const Scene& scene, const Views& views) const;
   [[nodiscard]] Figure& nextFigure();
   [[nodiscard]] std::span<Figure> figures() { return {figures_.data(), figureCount_}; }
   void paintWhole(const Scene& scene, const Views& views, const Layout& layout);
@@ -62,6 +65,7 @@ class Painter {
   [[nodiscard]] Canvas addRectangle(const Box& box, const Style& style);
 
   Trails trails_;
+  GroundGrid grid_;
   std::vector<Figure> figures_;  ///< The first figureCount_ are of this frame.
   std::vector<Box> extents_;     ///< Of these.
   size_t figureCount_ = 0;

@@ -4,9 +4,10 @@
  * @title: regionoverlay
  *
  * Draws what the elements before it found: objects' boxes with their numbers and states, the ways
- * that they came and go, their outlines, and the region graph. Boxes are dashed while an object is
- * hidden and only corners while it has stopped. Lines and letters grow with the frame. A caption,
- * such as the camera's name, may be in any script that the machine has a font for.
+ * that they came and go, their outlines, the region graph, and a grid that lies on the ground.
+ * Boxes are dashed while an object is hidden and only corners while it has stopped. Lines and
+ * letters grow with the frame. A caption, such as the camera's name, may be in any script that the
+ * machine has a font for.
  *
  * The drawing is attached as GstVideoOverlayComposition where downstream asks for that in its
  * allocation query (a sink that draws it itself); otherwise it is blended into the frames.
@@ -65,6 +66,10 @@ constexpr std::array kProperties{
         "graph",
         "Draw the region graph: a node for each region, a line for each pair that touches, in the "
         "object's colour where both belong to one"),
+    property<Settings, &Settings::grid>(
+        "grid",
+        "Draw a grid that lies on the ground: it moves as the camera moves the picture, and starts "
+        "anew where the scene changes or a square has become three times as large or small"),
     property<Settings, &Settings::scale>(
         "scale", "Size of lines and letters, as a factor of the size that suits the frame's height",
         0.25, 8),
@@ -97,12 +102,13 @@ struct Results {
 
 /// The element to add before this one, so that something can be drawn.
 const char* missingFor(const Settings& settings) {
-  if (settings.any()) return "mrfmerge";
+  if (settings.any() || settings.grid) return "mrfmerge";
   return settings.graph ? "srg" : "bgremove";
 }
 
 bool wantsAnything(const Settings& settings) {
-  return settings.any() || settings.graph || settings.background == Background::Black;
+  return settings.any() || settings.graph || settings.grid ||
+         settings.background == Background::Black;
 }
 
 class RegionOverlay final : public StageFilter {
@@ -199,10 +205,10 @@ const FilterDescription kDescription{
     .klass = "Filter/Editor/Video",
     .description =
         "Draws what the elements before it found: objects' boxes (dashed while hidden, corners "
-        "while stopped), numbers, trails, outlines, vectors, and the region graph; can black out "
-        "the background. Lines and letters grow with the frame. Attached as overlay composition "
-        "where downstream draws those, else blended into the frames. Needs mrfmerge; srg for the "
-        "graph alone, bgremove for the background alone",
+        "while stopped), numbers, trails, outlines, vectors, the region graph, and a grid on the "
+        "ground; can black out the background. Lines and letters grow with the frame. Attached as "
+        "overlay composition where downstream draws those, else blended into the frames. Needs "
+        "mrfmerge; srg for the graph alone, bgremove for the background alone",
     .example =
         "gst-launch-1.0 videotestsrc pattern=ball num-buffers=100 ! video/x-raw,format=I420 ! "
         "bgremove ! hsvsegment ! srg ! prmmotion ! mrfmerge ! regionoverlay ! videoconvert ! "

@@ -44,7 +44,7 @@ std::vector<Scenario> scenarios() {
       {"all in one", "regiontrack threads=1"}};
 #ifdef REGIONGRAPH_HAS_OVERLAY
   all.push_back({"drawing", still + " ! regionoverlay contours=true vectors=true "
-                                    "graph=true background=black"});
+                                    "graph=true grid=true background=black"});
 #endif
   return all;
 }

@@ -18,7 +18,7 @@ constexpr const char* kChains[] = {
     "mrfmerge threads=1 ! regionwrite location=/dev/null contours=true",
     "hsvsegment threads=1 ! srg threads=1 ! prmmotion threads=1 ! mrfmerge threads=1 ! "
     "regionwrite location=/dev/null format=graph",
-    "regiontrack threads=1 ! regionoverlay trails=true contours=true vectors=true",
+    "regiontrack threads=1 ! regionoverlay trails=true contours=true vectors=true grid=true",
     "bgremove threads=1 method=frame-difference ! hsvsegment threads=1 scope=areas ! "
     "srg threads=1 connectivity=8 ! prmmotion threads=1 ! mrfmerge threads=1 latency=0.2 ! "
     "regionwrite location=/dev/null format=mot",

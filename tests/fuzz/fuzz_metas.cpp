@@ -26,7 +26,7 @@ constexpr const char* kProducers[] = {
     "hsvsegment threads=1 ! srg threads=1 ! prmmotion threads=1",
 };
 constexpr const char* kReaders[] = {
-    "regionoverlay trails=true contours=true vectors=true graph=true",
+    "regionoverlay trails=true contours=true vectors=true graph=true grid=true",
     "regionmask source=objects",
     "regionmask source=labels",
     "regionmask source=foreground",

@@ -29,7 +29,8 @@ const Caps kSmall{"I420", 96, 64};
 std::string allReaders() {
   const bool hasOverlay = gst_element_factory_find("regionoverlay") != nullptr;
   return std::string(testing::kQuickStages) + " ! regionwrite location=/dev/null" +
-         (hasOverlay ? " ! regionoverlay boxes=true trails=true graph=true vectors=true" : "");
+         (hasOverlay ? " ! regionoverlay boxes=true trails=true graph=true grid=true vectors=true"
+                     : "");
 }
 
 constexpr guint kOddSizes[] = {0, 1, 95, 97, G_MAXINT32, G_MAXUINT32, G_MAXUINT32 - 7};
@@ -130,6 +131,28 @@ TEST(OurMetas, OfAnotherSizeAreSurvived) {
     expectSurvived<background::Foreground>("regionoverlay background=black", foreground, caps);
     expectSurvived<graph::Graph>("regionoverlay graph=true", testing::graph({31, 17}), caps);
   }
+}
+
+/// Cameras that no fit could have found, in front of all that writes or draws them.
+TEST(OurMetas, OfCamerasOfNonsenseAreSurvived) {
+  constexpr int64_t kOne = CameraMotion::kOne;
+  const CameraMotion::Matrix kMatrices[] = {
+      {},
+      {kOne, 0, 0, 0, kOne, 0, 0, 0, 0},
+      {kOne, 0, 0, 0, kOne, 0, kOne, -kOne, kOne},
+      {INT64_MIN, INT64_MAX, INT64_MIN, 0, INT64_MAX, 0, INT64_MIN, 1, kOne}};
+  for (const auto& matrix : kMatrices)
+    for (const Point origin : {Point{}, Point{INT32_MAX, INT32_MIN}, Point{16384, 16384}}) {
+      auto objects = testing::objects({31, 17}, {testing::object(1, {3, 4, 9, 9})});
+      objects->camera = {matrix, origin};
+      const std::shared_ptr<const objects::Objects> result = objects;
+      for (const Caps& caps : {Caps{"GRAY8", 1, 1}, Caps{"I420", 64, 48}}) {
+        expectSurvived<objects::Objects>("regionwrite location=/dev/null", result, caps);
+        expectSurvived<objects::Objects>("regiontext contours=true", result, caps);
+        if (gst_element_factory_find("regionoverlay"))
+          expectSurvived<objects::Objects>("regionoverlay grid=true", result, caps);
+      }
+    }
 }
 
 /// Stages whose input was made for frames of another size, as behind a videoscale.

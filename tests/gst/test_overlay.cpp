@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The parts that regionoverlay is made of.
+#include "core/base/camera/camera_place.hpp"
 #include "gst/overlay/figure.hpp"
+#include "gst/overlay/ground_grid.hpp"
 #include "gst/overlay/painter.hpp"
 #include "gst/overlay/trails.hpp"
 #include "tests/support/results.hpp"
 
 #include <gst/gst.h>
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
 
 namespace rg::overlay {
 namespace {
@@ -182,6 +187,120 @@ TEST(Lettering, TakesBytesThatAreNoText) {
   EXPECT_FALSE(lettering("two\nlines ü").empty());
 }
 
+std::shared_ptr<objects::Objects> seenBy(const CameraMotion& camera, Size size = kSize) {
+  auto list = objects(size, {});
+  list->camera = camera;
+  return list;
+}
+
+CameraMotion zoom(double factor) {
+  const auto scale = static_cast<int64_t>(CameraMotion::kOne * factor);
+  return {{scale, 30'000'000, 0, -30'000'000, scale, CameraMotion::kOne, 20'000, -30'000,
+           CameraMotion::kOne},
+          {320, 240}};
+}
+
+bool isFresh(GroundGrid& grid) {
+  GroundGrid other;
+  other.advance(*objects(grid.size(), {}));
+  const auto is = grid.lines(), fresh = other.lines();
+  return std::equal(is.begin(), is.end(), fresh.begin(), fresh.end(),
+                    [](const GroundGrid::Line& a, const GroundGrid::Line& b) {
+                      return a.from.x == b.from.x && a.from.y == b.from.y && a.to.x == b.to.x &&
+                             a.to.y == b.to.y;
+                    });
+}
+
+/// The upright ones come first.
+std::vector<double> columnsOf(GroundGrid& grid) {
+  std::vector<double> columns;
+  for (const GroundGrid::Line& line : grid.lines())
+    if (line.from.x == line.to.x) columns.push_back(line.from.x);
+  return columns;
+}
+
+TEST(GroundGrid, IsOfSquaresAndCoversTheFrame) {
+  GroundGrid grid;
+  EXPECT_TRUE(grid.lines().empty());
+  grid.advance(*seenBy({}));
+  EXPECT_EQ(columnsOf(grid), (std::vector<double>{79.5, 159.5, 239.5, 319.5, 399.5, 479.5, 559.5}));
+  EXPECT_EQ(grid.lines().size(), 7u + 5);
+  for (const GroundGrid::Line& line : grid.lines())
+    EXPECT_EQ(std::hypot(line.to.x - line.from.x, line.to.y - line.from.y),
+              line.from.x == line.to.x ? 479 : 639);
+}
+
+TEST(GroundGrid, MovesAsTheCameraMovesThePictureAndNeverEnds) {
+  GroundGrid grid;
+  grid.advance(*seenBy({}));
+  for (int i = 1; i <= 1000; ++i) grid.advance(*seenBy(CameraMotion(Point{-5 * 16, 0})));
+  EXPECT_EQ(columnsOf(grid),  // 5000 px are 62 squares and a half.
+            (std::vector<double>{39.5, 119.5, 199.5, 279.5, 359.5, 439.5, 519.5, 599.5}));
+}
+
+/// What lies on a line has lain on one in the frame where the grid was laid out.
+TEST(GroundGrid, LiesOnTheGround) {
+  GroundGrid grid;
+  grid.advance(*seenBy({}));
+  CameraMatrix back = matrixOf({});
+  for (int i = 0; i < 20; ++i) {
+    grid.advance(*seenBy(zoom(.99)));
+    back = chained(back, matrixOf(zoom(.99)));
+  }
+  EXPECT_FALSE(isFresh(grid));
+  ASSERT_GT(grid.lines().size(), 8u);
+  const auto offLine = [](double at, double middle) {
+    const double squares = (at - middle) / 80;
+    return std::abs(squares - std::round(squares));
+  };
+  for (const GroundGrid::Line& line : grid.lines())
+    for (const GroundGrid::Place& p : {line.from, line.to}) {
+      EXPECT_TRUE(p.x >= 0 && p.x <= 639 && p.y >= 0 && p.y <= 479) << p.x << ' ' << p.y;
+      const double w = back[6] * p.x + back[7] * p.y + back[8];
+      const double x = (back[0] * p.x + back[1] * p.y + back[2]) / w;
+      const double y = (back[3] * p.x + back[4] * p.y + back[5]) / w;
+      EXPECT_LT(std::min(offLine(x, 319.5), offLine(y, 239.5)), 1e-6);
+    }
+}
+
+TEST(GroundGrid, IsLaidOutAnewWhereItCanNoLongerBeRead) {
+  GroundGrid grid;
+  grid.advance(*seenBy({}));
+  int frames = 0;
+  do {
+    grid.advance(*seenBy(zoom(.95)));
+    EXPECT_LT(grid.lines().size(), 100u);
+  } while (!isFresh(grid) && ++frames < 100);
+  EXPECT_GT(frames, 5);
+  EXPECT_LT(frames, 30);
+}
+
+TEST(GroundGrid, IsLaidOutAnewForAnotherSceneOrSize) {
+  GroundGrid grid;
+  for (int i = 0; i < 3; ++i) grid.advance(*seenBy(zoom(.97)));
+  ASSERT_FALSE(isFresh(grid));
+  const auto changed = seenBy(zoom(.97));
+  changed->events = {{objects::EventKind::SceneChanged, {}}};
+  grid.advance(*changed);
+  EXPECT_TRUE(isFresh(grid));
+  grid.advance(*seenBy(zoom(.97)));
+  grid.advance(*seenBy(zoom(.97), {64, 48}));
+  EXPECT_EQ(grid.size(), (Size{64, 48}));
+  EXPECT_TRUE(isFresh(grid));
+}
+
+TEST(GroundGrid, SurvivesCamerasOfNonsense) {
+  GroundGrid grid;
+  CameraMotion::Matrix matrix{};
+  for (const Size size : {kSize, Size{1, 1}, {16384, 1}})
+    for (const int64_t value : {INT64_MIN, INT64_MAX, int64_t{0}, CameraMotion::kOne}) {
+      matrix.fill(value);
+      grid.advance(*seenBy({matrix, {INT32_MIN, INT32_MAX}}, size));
+      grid.advance(*seenBy({matrix, {-16384, 16384}}, size));
+      EXPECT_LE(grid.lines().size(), 128u);
+    }
+}
+
 TEST(Painter, HasNothingToDrawWithoutObjects) {
   Painter painter;
   EXPECT_FALSE(painter.paint({kSize}, {}));
@@ -220,6 +339,19 @@ TEST(Painter, DrawsARectangleForEachObjectAndOverTheseEachLabel) {
   const Size label = labelSize("1", styleFor(kSize, 1));
   for (size_t i : {2u, 3u}) EXPECT_EQ(boxes[i].height, label.height);
   EXPECT_LT(areaOf(composition), kSize.area() / 10);
+}
+
+TEST(Painter, DrawsTheGridOverTheWholeFrame) {
+  Painter painter;
+  Views views;
+  views.grid = true;
+  const auto list = seenBy({});
+  EXPECT_FALSE(painter.paint({kSize, 25, list.get()}, views)) << "no frame was followed";
+  painter.follow(*list, 0, 2);
+  const auto composition = painter.paint({{1280, 720}, 25, list.get()}, views);
+  ASSERT_TRUE(composition);
+  EXPECT_EQ(rectanglesOf(composition), (std::vector<Box>{{0, 0, 1280, 720}}));
+  EXPECT_FALSE(painter.paint({kSize}, views)) << "without objects' results there is no ground";
 }
 
 TEST(Painter, NeverDrawsMoreThanTheFrame) {

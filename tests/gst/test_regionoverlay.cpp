@@ -177,6 +177,23 @@ TEST(RegionOverlay, DrawsTheMotionOfRegionsWithoutObjects) {
   EXPECT_LT(drawn.height, 20);
 }
 
+TEST(RegionOverlay, DrawsAGridThatMovesWithTheGround) {
+  const Caps caps{"GRAY8", kSize.width, kSize.height};
+  Chain chain("regionoverlay boxes=false ids=false trails=false vectors=false grid=true", caps);
+  const auto result = objects(kSize, {});
+  BufferPtr out = chain.pass(frameWith(caps, result));
+  ASSERT_TRUE(out);
+  EXPECT_NE(pixel(out.get(), caps, 160, 100), kGrey);  // In the middle of the frame.
+  EXPECT_EQ(pixel(out.get(), caps, 172, 100), kGrey);
+  EXPECT_EQ(changed(out.get(), caps), (Box{0, 0, kSize.width, kSize.height}));
+  const auto panned = objects(kSize, {});
+  panned->camera = CameraMotion(Point{12 * 16, 0});
+  out = chain.pass(frameWith(caps, panned, 1));
+  ASSERT_TRUE(out);
+  EXPECT_EQ(pixel(out.get(), caps, 160, 100), kGrey);
+  EXPECT_NE(pixel(out.get(), caps, 172, 100), kGrey);
+}
+
 TEST(RegionOverlay, BlacksOutWhatIsNoObject) {
   for (const char* format : testing::kAllFormats) {
     SCOPED_TRACE(format);
@@ -213,6 +230,7 @@ TEST(RegionOverlay, BlacksOutTheBackgroundWithoutObjects) {
 TEST(RegionOverlay, NamesTheElementThatIsMissing) {
   const std::string none = "boxes=false ids=false trails=false vectors=false ";
   for (const auto& [properties, producer] : {std::pair{std::string(), "mrfmerge"},
+                                             {none + "grid=true", "mrfmerge"},
                                              {none + "graph=true", "srg"},
                                              {none + "background=black", "bgremove"}}) {
     const Caps caps{"I420", 64, 48};
