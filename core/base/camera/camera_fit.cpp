@@ -13,7 +13,7 @@ namespace {
 
 constexpr size_t kMostTried = 400;  // Samples that a start is tried on.
 constexpr uint32_t kTrials = 160;
-constexpr int kSteps = 8;
+constexpr int kSteps = 7;
 // By how many more votes a model has to explain for each number that it has more.
 constexpr double kFreedomCost = 1.5;
 // Priors, as votes: how far pictures turn and grow from frame to frame, and how far they slant, per
@@ -267,12 +267,14 @@ CameraFit fitCamera(std::span<const CameraSample> samples, const CameraFitRules&
   Starts starts(samples, s.weights, rules.alike);
   for (const CameraModel& model : rules.expected) starts.consider(model);
   if (rules.triesPairs) starts.considerPairs();
+  // What is only made finer begins where what fits has been told apart.
+  const int first = rules.triesPairs ? 0 : kSteps / 2;
   double least = INFINITY, unexplained = fit.votes;
   for (const Freedom freedom : {Freedom::None, Freedom::Shift, Freedom::Similarity,
                                 Freedom::Affinity, Freedom::Homography}) {
     CameraModel model = freedom == Freedom::None ? CameraModel() : starts.best();
-    for (int step = 0; step < kSteps && freedom != Freedom::None; ++step) {
-      explain(model, samples, rules.alike, std::max(.5, 2.0 - step * .25), s.weights);
+    for (int step = first; step < kSteps && freedom != Freedom::None; ++step) {
+      explain(model, samples, rules.alike, 2.0 - step * .25, s.weights);
       model = solveFor(freedom, samples, s.weights, rules.alike, model);
     }
     const double left = explain(model, samples, rules.alike, .5, s.weights);

@@ -28,6 +28,7 @@ namespace rg {
 /// diagonal: previous = (a x + b y + c, d x + e y + f) / (g x + h y + 1).
 struct CameraModel {
   double a = 1, b = 0, c = 0, d = 0, e = 1, f = 0, g = 0, h = 0;
+  friend constexpr bool operator==(const CameraModel&, const CameraModel&) = default;
 };
 
 /// What a part of the picture says.

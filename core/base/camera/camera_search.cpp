@@ -12,7 +12,7 @@
 namespace rg {
 namespace {
 
-constexpr int kColumns = 320;   // Of the small picture, at most.
+constexpr int kColumns = 256;   // Of the small picture, at most.
 constexpr int kTinyShare = 5;   // Of it the tiny one has one in so many.
 constexpr int kShiftShare = 4;  // Of the tiny picture's side, the furthest shift.
 constexpr int kFarReach = 8;    // Small pixels round a shift of the whole: zoom and roll, too.
@@ -20,6 +20,7 @@ constexpr int kNearReach = 4;   // Round what was expected.
 constexpr int kRefinements = 3;
 // Small pixels by which motions may differ and count as alike.
 constexpr double kAlikeWhole = .75, kAlikeFine = .25;
+constexpr double kEnough = .6;  // Share of the votes that tells that no other motion is looked for.
 constexpr double kLeastNoise = 1.0;  // Variance of a difference, grey levels squared.
 
 /// Of shift (dx, dy), in 1/256 grey level.
@@ -169,6 +170,35 @@ void CameraSearch::listResiduals(const CameraModel& camera) {
   }
 }
 
+CameraFit CameraSearch::fitMatches(const CameraModel& expected) {
+  listMatches();
+  const std::array starts{expected, last_, CameraModel()};
+  return fitCamera(samples_, {kAlikeWhole / frame_.half, starts, true}, scratch_);
+}
+
+/// Of a motion that is nearly right.
+CameraFit CameraSearch::refine(const CameraModel& camera, const Executor& executor) {
+  measure(motionOf(camera, frame_), executor);
+  listResiduals(camera);
+  const std::array starts{camera};
+  return fitCamera(samples_, {kAlikeFine / frame_.half, starts, false}, scratch_);
+}
+
+/// Of any motion. sums_ holds the blocks' gradients.
+CameraFit CameraSearch::search(const Executor& executor) {
+  matches_.assign(static_cast<size_t>(grid_.count()), {});
+  match(last_, kNearReach, executor);
+  const CameraFit near = fitMatches(last_);
+  if (near.explained >= kEnough) return near;
+  CameraModel whole;
+  const Point shift = findShift(executor);
+  whole.c = -shift.x / frame_.half;
+  whole.f = -shift.y / frame_.half;
+  match(whole, kFarReach, executor);
+  if (shift != Point{}) match({}, kNearReach, executor);
+  return fitMatches(whole);
+}
+
 CameraMotion CameraSearch::find(const std::shared_ptr<const Picture>& current,
                                 const std::shared_ptr<const Picture>& previous,
                                 const Executor& executor) {
@@ -181,25 +211,18 @@ CameraMotion CameraSearch::find(const std::shared_ptr<const Picture>& current,
   frame_ = CameraFrame::of(now_.small.size());
   grid_ = BlockGrid::of(now_.small.size());
   if (grid_.count() == 0) return {};
-  CameraModel whole;
-  const Point shift = findShift(executor);
-  whole.c = -shift.x / frame_.half;
-  whole.f = -shift.y / frame_.half;
-  matches_.assign(static_cast<size_t>(grid_.count()), {});
-  match(whole, kFarReach, executor);
-  match(last_, kNearReach, executor);
-  if (shift != Point{}) match({}, kNearReach, executor);
-  measure({}, executor);
-  listMatches();
-  const std::array starts{whole, last_, CameraModel()};
-  CameraModel model =
-      fitCamera(samples_, {kAlikeWhole / frame_.half, starts, true}, scratch_).model;
-  for (int i = 0; i < kRefinements; ++i) {
-    const std::array start{model};
-    measure(motionOf(model, frame_), executor);
-    listResiduals(model);
-    model = fitCamera(samples_, {kAlikeFine / frame_.half, start, false}, scratch_).model;
+  CameraModel seen = last_;  // That the residuals were measured with.
+  CameraFit fit = refine(seen, executor);
+  if (fit.explained < kEnough) {
+    fit = search(executor);
+    seen = fit.model;
+    fit = refine(seen, executor);
   }
+  for (int i = 1; i < kRefinements && fit.model != seen; ++i) {
+    seen = fit.model;
+    fit = refine(seen, executor);
+  }
+  const CameraModel& model = fit.model;
   last_ = model;
   // The small picture's middle is not quite the picture's.
   const double places = side_, half = frame_.half * places;

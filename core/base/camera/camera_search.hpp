@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // How a camera has moved since the previous frame, from the pixels of both.
 //
-// Both frames are looked at as small pictures of at most some 320 columns, in blocks of 8x8. Each
-// block is looked for where the picture as a whole has gone (tried on still smaller pictures),
-// where the camera was heading, and where it was; their consensus (camera_fit) is the start. Then
-// what the pixels of each block still differ by, along their gradients, says how far off it is
-// (Gauss and Newton's way), block by block, and the fit is made again.
+// Both frames are looked at as small pictures of at most 256 columns, in blocks of 8x8. What the
+// pixels of each block differ by from what a motion makes expect, along their gradients, says how
+// far off that is (Gauss and Newton's way), block by block, and camera_fit makes a motion of it;
+// the first is that of the frame before. Where it explains too few, each block is looked for where
+// the camera was heading, then where the picture as a whole has gone (tried on still smaller
+// pictures).
 //
 // Determinism: integers on pixels; camera_fit tells of the rest.
 #pragma once
@@ -41,6 +42,9 @@ class CameraSearch {
   void match(const CameraModel& camera, int reach, const Executor& executor);
   void measure(const CameraMotion& camera, const Executor& executor);
   void listMatches();
+  [[nodiscard]] CameraFit fitMatches(const CameraModel& expected);
+  [[nodiscard]] CameraFit refine(const CameraModel& camera, const Executor& executor);
+  [[nodiscard]] CameraFit search(const Executor& executor);
   void listResiduals(const CameraModel& camera);
   [[nodiscard]] double noise();
 

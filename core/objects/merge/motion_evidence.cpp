@@ -27,6 +27,7 @@ int64_t fade(int64_t unit, int64_t ns) {
 
 void MotionEvidence::reset() {
   frame_ = {};
+  hasAny_ = false;
   carried_.clear();
 }
 
@@ -38,7 +39,9 @@ void MotionEvidence::carry(const motion::Motion& motion, ImageView<const uint8_t
   std::swap(now_, before_);
   now_.resize(grid);
   now_.fill(0);
+  const bool hadAny = std::exchange(hasAny_, false);
   if (std::exchange(frame_, motion.size) != motion.size || previous.size != motion.size) return;
+  if (!hadAny) return;
   const graph::Graph& graph = *motion.graph;
   const ImageView<const uint8_t> luma = graph.picture->luma();
   const int64_t left = fade(256, stepNs);
@@ -73,7 +76,10 @@ void MotionEvidence::carry(const motion::Motion& motion, ImageView<const uint8_t
     }
   }
   for (size_t i = 0; i < count; ++i)
-    if (samples_[i] > 0) carried_[i] = sums_[i] * int64_t{graph.regions[i].areaPx} / samples_[i];
+    if (sums_[i] > 0) {
+      carried_[i] = sums_[i] * int64_t{graph.regions[i].areaPx} / samples_[i];
+      hasAny_ = true;
+    }
 }
 
 void MotionEvidence::add(const motion::Motion& motion, std::span<const OwnMotion> own,
@@ -83,6 +89,8 @@ void MotionEvidence::add(const motion::Motion& motion, std::span<const OwnMotion
   for (size_t i = 0; i < own.size(); ++i)
     density_.push_back(static_cast<int16_t>(std::clamp<int64_t>(
         own[i].gain / std::max<int64_t>(graph.regions[i].areaPx, 1), -kMost, kMost)));
+  hasAny_ |= std::any_of(density_.begin(), density_.end(), [](int16_t gain) { return gain > 0; });
+  if (!hasAny_) return;
   executor.forRows(now_.height(), [&](int begin, int end) {
     for (int v = begin; v < end; ++v) {
       const uint16_t* ids = graph.labels->ids.row(v * kStep);

@@ -38,6 +38,7 @@ class MotionEvidence {
  private:
   Size frame_;
   Image<int16_t> now_, before_;    ///< Gain of a pixel, by samples.
+  bool hasAny_ = false;            ///< Not all of now_ is 0.
   std::vector<int64_t> carried_;   ///< Of each region.
   std::vector<int64_t> sums_;      ///< Of each region's samples,
   std::vector<uint32_t> samples_;  ///< and how many there are.
