@@ -20,6 +20,10 @@
   X(keepOnly, rg::keepOnly, rg::gpu::keepOnly)                                              \
   X(thicken, rg::thicken, rg::gpu::thicken)                                                 \
   X(findComponents, rg::findComponents, rg::gpu::findComponents)                            \
+  X(shrink, rg::shrink, rg::gpu::shrink)                                                    \
+  X(matchBlocks, rg::matchBlocks, rg::gpu::matchBlocks)                                     \
+  X(sumBlocks, rg::sumBlocks, rg::gpu::sumBlocks)                                           \
+  X(warpByCamera, rg::warpByCamera, rg::gpu::warpByCamera)                                  \
   X(smooth, rg::background::smooth, rg::gpu::background::smooth)                            \
   X(fillFrom, rg::background::fillFrom, rg::gpu::background::fillFrom)                      \
   X(judge, rg::background::judge, rg::gpu::background::judge)                               \

@@ -56,6 +56,10 @@ TEST(Mutants, AWrongTieBreakIsCaughtByFindComponents) {
   expectCaught(Mutant::WrongTieBreak, test::parity_findComponents);
 }
 
+TEST(Mutants, AWrongTieBreakIsCaughtByMatchBlocks) {
+  expectCaught(Mutant::WrongTieBreak, test::parity_matchBlocks);
+}
+
 TEST(Mutants, AMissingBarrierIsCaughtByKeepMajority) {
   expectCaught(Mutant::MissingBarrier, test::parity_keepMajority);
 }

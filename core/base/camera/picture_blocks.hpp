@@ -17,8 +17,7 @@ namespace rg {
 /// Means of boxes of `side` x `side` pixels; what is left over at the right and below is not seen.
 void shrink(ImageView<const uint8_t> from, int side, const Executor& executor, Image<uint8_t>& to);
 
-inline constexpr int kCameraBlock = 8;      ///< Pixels of a small picture.
-inline constexpr int kMostCameraReach = 8;  ///< Of a search.
+inline constexpr int kCameraBlock = 8;  ///< Pixels of a small picture.
 
 /// The blocks that lie wholly in a picture, row by row.
 struct BlockGrid {
@@ -39,9 +38,8 @@ struct BlockMatch {
   Point shift;           ///< By how much it has moved.
 };
 
-/// The best shift of each block within `reach` (kMostCameraReach at most) of shifts[block].
-/// Tie-break: smallest (SAD, distance from shifts[block], dy, dx). Replaces what `matches` has
-/// where that is worse.
+/// The best shift of each block within `reach` of shifts[block]. Tie-break: smallest (SAD, distance
+/// from shifts[block], dy, dx). Replaces what `matches` has where that isn't better.
 void matchBlocks(ImageView<const uint8_t> now, ImageView<const uint8_t> before,
                  std::span<const Point> shifts, int reach, const Executor& executor,
                  std::span<BlockMatch> matches);
