@@ -76,7 +76,9 @@ void MotionStage::match(const graph::Graph& graph, const Params& params, Motion&
   if (params.method == Method::Literal) return matchLiterally(graph, maxShift, motion);
   blocks_.find(graph, *context_.cpu);
   if (blocks_.parts().empty()) return;
-  if (motion.camera == CameraMotion())
+  // What moves so far that a thing which the camera follows may still be found is searched as it
+  // was: without a trace of interpolation.
+  if (2 * furthestMotion(motion.camera, motion.size) <= maxShift * kMotionUnit)
     search(graph, *previous_, params, motion.regions);
   else
     searchBeyondCamera(graph, params, motion);
@@ -95,18 +97,20 @@ void MotionStage::search(const graph::Graph& graph, const Picture& before, const
     refinement_.run(graph, blocks_, before, operations_->previousLuma(), *context_.cpu, motion);
 }
 
-/// In the previous frame as the camera makes it look now. Where the camera is so fast that what it
-/// follows is out of reach then, in the previous frame as it was, too.
+/// In the previous frame as a fast camera makes it look now, and as it was, where what the camera
+/// follows is found.
 void MotionStage::searchBeyondCamera(const graph::Graph& graph, const Params& params,
                                      Motion& motion) {
   view_.show(previous_->luma(), motion.camera, *context_.cpu);
   search(graph, view_.picture(), params, motion.regions);
   view_.addCamera(graph, blocks_, motion.regions);
-  if (2 * view_.furthest() <= params.maxShiftPx * kMotionUnit) return;
   inFrame_.assign(motion.regions.size(), {});
   search(graph, *previous_, params, inFrame_);
-  for (size_t i = 0; i < inFrame_.size(); ++i)
-    if (inFrame_[i].sad < motion.regions[i].sad) motion.regions[i] = inFrame_[i];
+  for (size_t i = 0; i < inFrame_.size(); ++i) {
+    const RegionMotion &beyond = motion.regions[i], &plain = inFrame_[i];
+    const bool isBetter = plain.sad != beyond.sad ? plain.sad < beyond.sad : plain.reliability > 0;
+    if (isBetter) motion.regions[i] = plain;
+  }
 }
 
 void MotionStage::matchLiterally(const graph::Graph& graph, int maxShift, Motion& motion) {

@@ -22,13 +22,18 @@ std::shared_ptr<const graph::Graph> graphOf(std::shared_ptr<const segmentation::
 
 using LabelAt = std::function<int(int, int)>;
 
-std::shared_ptr<const motion::Motion> match(std::shared_ptr<const Picture> previous,
-                                            std::shared_ptr<const Picture> current, uint32_t count,
-                                            const LabelAt& labelAt, const motion::Params& params,
-                                            int threads = 1) {
+std::shared_ptr<const motion::Motion> match(
+    std::shared_ptr<const Picture> previous, std::shared_ptr<const Picture> current, uint32_t count,
+    const LabelAt& labelAt, const motion::Params& params, int threads = 1,
+    segmentation::Scope scope = segmentation::Scope::Foreground) {
   const auto stage = motion::makeStage(contextWith(threads));
-  EXPECT_TRUE(stage->process(graphOf(label(previous, 1, [](int, int) { return 1; })), params));
-  auto motion = stage->process(graphOf(label(current, count, labelAt)), params);
+  const auto scoped = [&](const std::shared_ptr<const segmentation::Labels>& labels) {
+    const auto copy = std::const_pointer_cast<segmentation::Labels>(labels);
+    copy->scope = scope;
+    return graphOf(labels);
+  };
+  EXPECT_TRUE(stage->process(scoped(label(previous, 1, [](int, int) { return 1; })), params));
+  auto motion = stage->process(scoped(label(current, count, labelAt)), params);
   EXPECT_TRUE(motion);
   EXPECT_EQ((*motion)->status, Status::Ok);
   return *motion;
@@ -227,14 +232,15 @@ std::shared_ptr<const Picture> movedTexture(Size size, double dx, double dy) {
   return paintGrey(size, [=](int x, int y) { return std::lround(texture(x - dx, y - dy)); });
 }
 
-// 6 x 5 tiles of 24 px; what a shift brings in from outside is 20 px wide.
-TEST(RegionMotion, EveryTileOfATextureMovesAsThePictureDoes) {
+/// 6 x 5 tiles of 24 px; what a shift brings in from outside is 20 px wide.
+void expectThatTilesFollow(segmentation::Scope scope, int least) {
   const Size size{144, 120};
   const LabelAt tiles = [](int x, int y) { return 1 + x / 24 + y / 24 * 6; };
   const auto previous = movedTexture(size, 0, 0);
   for (const double dx : {-20.0, 3.0, 20.0, 7.25, -13.5})
     for (const double dy : {20.0, 0.0, -11.0, -2.75}) {
-      const auto motion = match(previous, movedTexture(size, dx, dy), 30, tiles, {20, true});
+      const auto motion =
+          match(previous, movedTexture(size, dx, dy), 30, tiles, {20, true}, 1, scope);
       const bool isWhole = std::floor(dx) == dx && std::floor(dy) == dy;
       int reliable = 0;
       for (const motion::RegionMotion& region : motion->regions) {
@@ -243,8 +249,28 @@ TEST(RegionMotion, EveryTileOfATextureMovesAsThePictureDoes) {
         EXPECT_NEAR(region.dx, dx * motion::kMotionUnit, isWhole ? 0 : 0.15 * motion::kMotionUnit);
         EXPECT_NEAR(region.dy, dy * motion::kMotionUnit, isWhole ? 0 : 0.15 * motion::kMotionUnit);
       }
-      EXPECT_GE(reliable, 5 * 4) << dx << ' ' << dy;
+      EXPECT_GE(reliable, least) << dx << ' ' << dy;
     }
+}
+
+TEST(RegionMotion, EveryTileOfATextureMovesAsThePictureDoes) {
+  expectThatTilesFollow(segmentation::Scope::Foreground, 5 * 4);
+}
+
+TEST(RegionMotion, SoItDoesWhereTheCameraIsLookedFor) {
+  expectThatTilesFollow(segmentation::Scope::Frame, 5 * 3);
+}
+
+TEST(RegionMotion, ACameraMayMoveFurtherThanTheSearchReaches) {
+  const Size size{160, 120};
+  const LabelAt inside = [](int x, int y) { return x > 49 && x < 130 && y > 9 && y < 90 ? 1 : 0; };
+  const auto motion = match(movedTexture(size, 0, 0), movedTexture(size, 31, -22), 1, inside,
+                            {8, true}, 1, segmentation::Scope::Frame);
+  EXPECT_EQ(motion->regions[0].dx, 31 * motion::kMotionUnit);
+  EXPECT_EQ(motion->regions[0].dy, -22 * motion::kMotionUnit);
+  EXPECT_GT(motion->regions[0].reliability, motion::kFullReliability / 2);
+  EXPECT_EQ(motion->camera.at(80, 60),
+            (Point{31 * motion::kMotionUnit, -22 * motion::kMotionUnit}));
 }
 
 /// Left half textured, right half flat but for its noise; both move alike.
