@@ -12,7 +12,7 @@ namespace {
 constexpr int kStep = 4;                  // Pixels between samples.
 constexpr int kAlike = 16;                // Grey levels by which a sample may have changed.
 constexpr int64_t kMost = kGainUnit;      // Of a pixel's gain.
-constexpr int64_t kHalfNs = 200'000'000;  // That leave half of it.
+constexpr int64_t kHalfNs = 100'000'000;  // That leave half of it.
 
 Size gridOf(Size frame) {
   return {(frame.width + kStep - 1) / kStep, (frame.height + kStep - 1) / kStep};
