@@ -41,7 +41,7 @@ uint32_t meanDifference(ImageView<const uint8_t> now, ImageView<const uint8_t> b
 /// Covariance of a shift that a block's gradients tell, given the variance of a pixel; squared
 /// pixels. Gradients are per two pixels.
 void setCovariance(const BlockSums& sums, double variance, double unit, CameraSample& sample) {
-  // A pixel is off by as much in a block without gradients.
+  // So that a block without gradients has one, too.
   constexpr double kLeast = 1e-3;
   const double xx = double(sums.xx) / 4 + kLeast, yy = double(sums.yy) / 4 + kLeast;
   const double xy = double(sums.xy) / 4;
@@ -69,19 +69,19 @@ Point CameraSearch::findShift(const Executor& executor) {
   if (size.isEmpty()) return {};
   const int reachX = size.width / kShiftShare, reachY = size.height / kShiftShare;
   const auto columns = static_cast<size_t>(2 * reachX + 1);
-  rowBest_.resize(columns * static_cast<size_t>(2 * reachY + 1));
+  differences_.resize(columns * static_cast<size_t>(2 * reachY + 1));
   executor.forEach(2 * reachY + 1, [&](int row) {
     for (int dx = -reachX; dx <= reachX; ++dx)
-      rowBest_[static_cast<size_t>(row) * columns + static_cast<size_t>(dx + reachX)] =
+      differences_[static_cast<size_t>(row) * columns + static_cast<size_t>(dx + reachX)] =
           meanDifference(now_.tiny, before_.tiny, dx, row - reachY);
   });
   Point best;
   std::tuple<uint32_t, int> least{UINT32_MAX, 0};
   for (int dy = -reachY; dy <= reachY; ++dy)
     for (int dx = -reachX; dx <= reachX; ++dx) {
-      const std::tuple key{
-          rowBest_[static_cast<size_t>(dy + reachY) * columns + static_cast<size_t>(dx + reachX)],
-          dx * dx + dy * dy};
+      const std::tuple key{differences_[static_cast<size_t>(dy + reachY) * columns +
+                                        static_cast<size_t>(dx + reachX)],
+                           dx * dx + dy * dy};
       if (key >= least) continue;
       least = key;
       best = {dx * kTinyShare, dy * kTinyShare};

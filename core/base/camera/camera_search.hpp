@@ -54,7 +54,7 @@ class CameraSearch {
   Reduced now_, before_;
   std::shared_ptr<const Picture> nowOf_;  ///< Whose pictures now_ holds.
   CameraModel last_;
-  std::vector<uint32_t> rowBest_;
+  std::vector<uint32_t> differences_;  ///< Of each shift of the tiny pictures.
   std::vector<Point> shifts_;
   std::vector<BlockMatch> matches_;
   std::vector<BlockSums> sums_;
