@@ -17,7 +17,7 @@ trap 'rm -rf "$folder"' EXIT
 left_out_of_core=(
   'Background.AStoppedThingStaysForAnHour*' 'BackgroundTargets.*'
   'Detection.ASearchFindsWhatThePlainVersionFinds' 'Exposure.AHuntingGain*'
-  'Exposure.LightThatGoesOn*' 'FrameDifference.Areas*' 'FrameShift.FindsAPan*'
+  'Exposure.LightThatGoesOn*' 'FrameDifference.Areas*'
   'Image.WithoutMemory*' 'LiteralSearch.SumsOfTheLargest*' 'MergeChains.WorkFollows*'
   'MergeContraction.WorkFollows*' 'ScopeAreas.*' 'Scopes/ChainTargets.*' 'SearchWindows.*'
   'StageMemory.*' 'Stages/SceneChanges.*' 'WeakContrast.AWalkerIsFound*'
