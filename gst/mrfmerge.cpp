@@ -92,10 +92,12 @@ constexpr std::array kProperties{
         "What it costs to part regions that were expected to be one object, by where that was in "
         "the previous frame and how it moved. Higher keeps objects whole",
         0, 1000),
-    property<Settings, &Settings::motionThresholdPx>(
+    property<Settings, &Settings::motionThreshold>(
         "motion-threshold",
-        "Regions whose motions differ by less than this move alike; in pixels per frame", 0.0625,
-        64),
+        "Regions whose speeds differ by less than this move alike, and a moving camera's frame is "
+        "compared with one of so long ago that this is a pixel; in percent of the root of the "
+        "frame's area per second",
+        0.1, 1000),
     property<Settings, &Settings::maxLostTimeS>(
         "max-lost-time",
         "Seconds for which an object that is not seen keeps its number, should it come back", 0,

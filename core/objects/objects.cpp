@@ -6,11 +6,10 @@
 #include "core/base/renewed_stage.hpp"
 #include "core/base/time/time.hpp"
 #include "core/objects/merge/ground_merge.hpp"
-#include "core/objects/merge/motion_evidence.hpp"
 #include "core/objects/merge/motion_layers.hpp"
 #include "core/objects/merge/motion_trends.hpp"
 #include "core/objects/merge/mrf_merge.hpp"
-#include "core/objects/merge/own_motion.hpp"
+#include "core/objects/movers.hpp"
 #include "core/objects/tracking/looks/contour.hpp"
 #include "core/objects/tracking/looks/object_pixels.hpp"
 #include "core/objects/tracking/region_owners.hpp"
@@ -71,10 +70,7 @@ class CpuObjectStage final : public Stage {
   std::vector<uint32_t> mainPx_;  ///< Of each group: its largest region that is expected there.
   std::vector<uint8_t> isBackground_;
   std::vector<int32_t> majority_;  ///< Of each group: foreground samples less the others.
-  std::shared_ptr<const Picture> previous_;
-  OwnMotionScratch ownMotionScratch_;
-  std::vector<OwnMotion> own_;  ///< Of each region, under Scope::Frame.
-  MotionEvidence moved_;        ///< What they have shown so far.
+  Movers movers_;                  ///< Under Scope::Frame.
   StandingScratch standingScratch_;
   std::vector<StandingTrack> standing_;  ///< Of each region, under Scope::Frame.
   std::vector<uint8_t> isOpen_;          ///< Of each region: it may be something else than ground.
@@ -105,9 +101,8 @@ int64_t CpuObjectStage::stepTo(FrameTime time) {
 void CpuObjectStage::reset(Reset what) {
   if (what == Reset::Gap) return;  // The next frame's time tells how far to predict.
   tracker_.reset();
-  previous_.reset();
+  movers_.reset();
   trends_.reset();
-  moved_.reset();
   hasLast_ = false;
 }
 
@@ -136,14 +131,13 @@ void CpuObjectStage::mergeRegions(const Input& in, const Params& params, int64_t
                                   Objects& objects) {
   const motion::Motion& motion = *in.motion;
   const graph::Graph& graph = *motion.graph;
-  const MergeWeights weights = weightsOf(params);
-  const std::shared_ptr<const Picture> previous = std::exchange(previous_, graph.picture);
-  const bool isMoving =
-      graph.labels->scope == segmentation::Scope::Frame && motion.status != Status::Skipped;
+  const MergeWeights weights = weightsOf(params, graph.size, stepNs);
+  const bool isStill = graph.labels->scope != segmentation::Scope::Frame;
+  const bool isMoving = !isStill && motion.status != Status::Skipped;
   if (isMoving) objects.setCamera(motion.camera);
+  if (isStill || params.method == Method::Literal) movers_.reset();
   expectLabels(graph, stepNs, objects);
   if (params.method == Method::Literal) return mergeByEnergy(motion, weights, objects);
-  const bool isStill = graph.labels->scope != segmentation::Scope::Frame;
   if (isStill)
     followTrends(motion, trends_, trend_);
   else
@@ -151,20 +145,14 @@ void CpuObjectStage::mergeRegions(const Input& in, const Params& params, int64_t
   const motion::Motion& shown = isStill ? trend_ : motion;
   weighArcs(shown, expected_, weights, objects.arcs);
   startGroups();
-  if (graph.labels->scope == segmentation::Scope::Frame) {
-    own_.assign(graph.regions.size(), {});
-    ownMotionScratch_.moves.assign(graph.regions.size(), 0);
-    const bool isComparable =
-        isMoving && previous && previous_ && previous->size() == previous_->size();
-    moved_.carry(motion, isComparable ? previous->luma() : ImageView<const uint8_t>{}, stepNs,
-                 *context_.cpu);
-    if (isComparable)
-      findOwnMotion(motion, previous->luma(), {objects.arcs, weights, expected_, shifts_},
-                    *context_.cpu, ownMotionScratch_, own_);
+  if (!isStill) {
+    const MoverRules rules{objects.arcs,      weights, expected_,
+                           tracker_.tracks(), stepNs,  nsPerPixel(params, graph.size)};
+    movers_.find(motion, rules, *context_.cpu);
     tieToGround(graph, weights, objects.ground);
-    moved_.add(motion, own_, *context_.cpu);
+    movers_.remember(motion, rules, *context_.cpu);
     objects.groundGroup =
-        minimiseWithGround(graph, objects.arcs, {objects.ground, isOpen_, ownMotionScratch_.moves},
+        minimiseWithGround(graph, objects.arcs, {objects.ground, isOpen_, movers_.moves()},
                            groundScratch_, mergeScratch_, groupOf_);
   } else {
     listArcs(graph, objects.arcs, arcs_);
@@ -205,16 +193,17 @@ void CpuObjectStage::tieToGround(const graph::Graph& graph, const MergeWeights& 
                                  std::vector<GroundEnergy>& energies) {
   energies.clear();
   isOpen_.clear();
-  for (size_t r = 0; r < own_.size(); ++r) {
+  const std::span<const OwnMotion> own = movers_.own();
+  for (size_t r = 0; r < own.size(); ++r) {
     const bool isStopped{standing_[r].track};
-    const int64_t before = moved_.gainOf(r);
+    const int64_t before = movers_.gainBefore(r);
     // That it moves as the ground does says nothing against what has stopped.
-    const int64_t gain = before + (isStopped ? std::max<int64_t>(0, own_[r].gain) : own_[r].gain);
+    const int64_t gain = before + (isStopped ? std::max<int64_t>(0, own[r].gain) : own[r].gain);
     energies.push_back(weighGround(gain, graph.regions[r].areaPx, bool{expected_[r]}, weights,
                                    standing_[r].areaPx));
     const bool hasMoved = before > 0 && energies.back().weight() < 0;
-    isOpen_.push_back(own_[r].isTried() || isStopped || hasMoved);
-    ownMotionScratch_.moves[r] |= isStopped || hasMoved;
+    isOpen_.push_back(own[r].isTried() || isStopped || hasMoved);
+    movers_.moves()[r] |= isStopped || hasMoved;
   }
 }
 

@@ -32,16 +32,17 @@ enum class Method : uint8_t {
 /// Weights of the energy U = U1 + U2 + U3 + prediction (core/objects/merge/mrf_merge.hpp), and the
 /// tracker's times.
 struct Params {
-  double motionWeight = 1.0;       ///< Of U1: what keeping regions together costs that move apart.
-  double borderWeight = 2.0;       ///< Of U2: what a pixel of border between two groups costs where
-                                   ///< it shows no edge.
-  double arcWeight = 1.0;          ///< Of U3: what a broken arc between like colours costs, in
-                                   ///< sixteenths of the root of the frame's area.
-  double predictionWeight = 2.0;   ///< What it costs to part regions that were expected to be one
-                                   ///< object.
-  double motionThresholdPx = 1.0;  ///< Speeds that differ by less per frame count as alike.
-  double maxLostTimeS = 2.0;       ///< An object that is not seen for longer ends.
-  double minObjectArea = 0.0;      ///< Share of the frame, in percent; 0 = learnt from the scene.
+  double motionWeight = 1.0;      ///< Of U1: what keeping regions together costs that move apart.
+  double borderWeight = 2.0;      ///< Of U2: what a pixel of border between two groups costs where
+                                  ///< it shows no edge.
+  double arcWeight = 1.0;         ///< Of U3: what a broken arc between like colours costs, in
+                                  ///< sixteenths of the root of the frame's area.
+  double predictionWeight = 2.0;  ///< What it costs to part regions that were expected to be one
+                                  ///< object.
+  double motionThreshold = 4.5;   ///< Speeds that differ by less are alike; percent of the root of
+                                  ///< the frame's area per second.
+  double maxLostTimeS = 2.0;      ///< An object that is not seen for longer ends.
+  double minObjectArea = 0.0;     ///< Share of the frame, in percent; 0 = learnt from the scene.
   Method method = Method::Extended;
 };
 

@@ -37,6 +37,14 @@ int wholePx(double place) {
   return static_cast<int>(std::lround(std::clamp(place, -kFarthest, kFarthest)));
 }
 
+/// Not safe where it can't be computed with.
+CameraMotion motionOf(const CameraMatrix& numbers, Point origin) {
+  CameraMotion::Matrix matrix{};
+  if (numbers[8] > kLeastW)
+    for (size_t i = 0; i < matrix.size(); ++i) matrix[i] = fixed(numbers[i] / numbers[8]);
+  return {matrix, origin};
+}
+
 CameraMotion shiftAtOrigin(const CameraMotion& camera, const PixelWay& way) {
   constexpr double kFarthest = 1 << 18;  // 2^14 px.
   const Point by = camera.at(camera.origin().x, camera.origin().y);
@@ -57,6 +65,24 @@ CameraMatrix chained(const CameraMatrix& a, const CameraMatrix& b) {
   return c;
 }
 
+CameraMotion followed(const CameraMotion& since, const CameraMotion& before) {
+  if (!since.isSafe() || !before.isSafe()) return {};
+  const Point origin = since.origin();
+  // Between places as seen from the two origins.
+  const auto by = [&](int direction) {
+    return CameraMatrix{1, 0, 1.0 * direction * (before.origin().x - origin.x),
+                        0, 1, 1.0 * direction * (before.origin().y - origin.y),
+                        0, 0, 1};
+  };
+  const CameraMatrix all =
+      chained(chained(by(1), chained(numbersOf(before), by(-1))), numbersOf(since));
+  const CameraMotion result = motionOf(all, origin);
+  if (result.isSafe()) return result;
+  const Point step = since.at(origin.x, origin.y);
+  const Point rest = before.at(origin.x - step.x / 16, origin.y - step.y / 16);
+  return CameraMotion(Point{step.x + rest.x, step.y + rest.y});
+}
+
 CameraMotion moved(const CameraMotion& camera, const PixelWay& way) {
   if (!camera.isSafe()) return {};
   const Point from = camera.origin();
@@ -66,10 +92,7 @@ CameraMotion moved(const CameraMotion& camera, const PixelWay& way) {
   // Between places as seen from the two origins.
   const CameraMatrix there{way.xx, way.xy, x - to.x, way.yx, way.yy, y - to.y, 0, 0, 1};
   const CameraMatrix all = chained(chained(there, numbersOf(camera)), wayBack(there));
-  if (!(all[8] > kLeastW)) return shiftAtOrigin(camera, way);
-  CameraMotion::Matrix matrix{};
-  for (size_t i = 0; i < matrix.size(); ++i) matrix[i] = fixed(all[i] / all[8]);
-  const CameraMotion result(matrix, to);
+  const CameraMotion result = motionOf(all, to);
   return result.isSafe() ? result : shiftAtOrigin(camera, way);
 }
 

@@ -40,6 +40,10 @@ using CameraMatrix = std::array<double, 9>;
 /// it is the shift at the origin; no motion where `camera` is not safe.
 [[nodiscard]] CameraMotion moved(const CameraMotion& camera, const PixelWay& way);
 
+/// The motion since an older frame: first `since`, which leads to a frame, then that from there on.
+/// Where it can't be computed with it is that of the origin; no motion where one is not safe.
+[[nodiscard]] CameraMotion followed(const CameraMotion& since, const CameraMotion& before);
+
 /// Finite numbers. Where w is not what CameraMotion asks for at (0, 0) it is the shift at the
 /// origin; the unit matrix where `camera` is not safe.
 [[nodiscard]] CameraMatrix matrixOf(const CameraMotion& camera);

@@ -122,7 +122,14 @@ void improve(uint64_t mostVisits, MergeScratch& s, std::vector<uint32_t>& groupO
 
 }  // namespace
 
-MergeWeights weightsOf(const Params& params) {
+int64_t nsPerPixel(const Params& params, Size frame) {
+  constexpr double kSecond = 1e9;
+  const double pxPerSecond = std::clamp(params.motionThreshold, 0.0, 1000.0) / 100 *
+                             integerSqrt(static_cast<uint64_t>(frame.area()));
+  return std::llround(kSecond / std::max(pxPerSecond, 1.0));
+}
+
+MergeWeights weightsOf(const Params& params, Size frame, int64_t stepNs) {
   const auto q8 = [](double value) {
     return static_cast<int32_t>(std::lround(std::clamp(value, 0.0, 1000.0) * 256));
   };
@@ -131,9 +138,10 @@ MergeWeights weightsOf(const Params& params) {
   weights.border = q8(params.borderWeight);
   weights.arc = q8(params.arcWeight);
   weights.prediction = q8(params.predictionWeight);
-  weights.motionThreshold =
-      std::max(1, static_cast<int32_t>(std::lround(std::clamp(params.motionThresholdPx, 0.0, 64.0) *
-                                                   motion::kMotionUnit)));
+  // Vectors of small regions are no better than to a pixel.
+  constexpr int64_t kLeast = motion::kMotionUnit, kMost = 64 * motion::kMotionUnit;
+  weights.motionThreshold = static_cast<int32_t>(std::clamp<int64_t>(
+      divideRounded(motion::kMotionUnit * stepNs, nsPerPixel(params, frame)), kLeast, kMost));
   return weights;
 }
 

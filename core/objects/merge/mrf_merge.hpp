@@ -41,10 +41,15 @@ struct MergeWeights {
   int32_t border = 512;
   int32_t arc = 256;
   int32_t prediction = 512;
-  int32_t motionThreshold = motion::kMotionUnit;  ///< T, in 1/16 px per frame, at least 1.
+  int32_t motionThreshold = motion::kMotionUnit;  ///< T, in 1/16 px per step, at least a pixel.
 };
 
-[[nodiscard]] MergeWeights weightsOf(const Params& params);
+/// Where frames of that size are stepNs apart.
+[[nodiscard]] MergeWeights weightsOf(const Params& params, Size frame, int64_t stepNs);
+
+/// How long it takes until what moves at the threshold's speed has moved by a pixel; at most a
+/// second.
+[[nodiscard]] int64_t nsPerPixel(const Params& params, Size frame);
 
 /// An arc between nodes a < b that count from 0.
 struct WeightedArc {

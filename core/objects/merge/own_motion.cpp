@@ -28,6 +28,7 @@ using Trial = OwnMotionScratch::Trial;
 /// What is given to all steps.
 struct Inputs {
   const motion::Motion& motion;
+  const ComparedFrame& compared;
   const Executor& executor;
   const OwnMotionRules& rules;
 };
@@ -165,32 +166,35 @@ void judge(const Inputs& in, int64_t deviations, OwnMotionScratch& s, std::vecto
 
 /// The shift that a region's own vector suggests, or what it is expected to be.
 Point ownShift(const Inputs& in, size_t region) {
-  const motion::RegionMotion& m = in.motion.regions[region];
-  const graph::Region& where = in.motion.graph->regions[region];
-  const Point camera = in.motion.camera.at(where.centroidX >> 8, where.centroidY >> 8);
-  const Point beyond{m.dx - camera.x, m.dy - camera.y};
-  const int64_t threshold = in.rules.weights.motionThreshold;
-  if (int64_t{beyond.x} * beyond.x + int64_t{beyond.y} * beyond.y > threshold * threshold)
-    return inPixels(beyond);
+  if (in.compared.showsMotion(in.motion, region))
+    return inPixels(in.compared.beyondCamera(in.motion, region));
   const TrackIndex track = expectedAs(in.rules, region);
   if (!track) return {};
-  const Point step = in.rules.steps[track.index()], by = inPixels(camera);
+  const Point step = in.rules.steps[track.index()];
+  const Point by = inPixels(ComparedFrame::at(in.compared.camera, in.motion, region));
   return {step.x - by.x, step.y - by.y};
 }
 
 }  // namespace
 
-void findOwnMotion(const motion::Motion& motion, ImageView<const uint8_t> previous,
+void clearOwnMotion(size_t regions, OwnMotionScratch& s, std::vector<OwnMotion>& own) {
+  own.assign(regions, {});
+  s.moves.assign(regions, 0);
+}
+
+void findOwnMotion(const motion::Motion& motion, const ComparedFrame& compared,
                    const OwnMotionRules& rules, const Executor& executor, OwnMotionScratch& s,
                    std::vector<OwnMotion>& own) {
-  const Inputs in{motion, executor, rules};
+  const Inputs in{motion, compared, executor, rules};
   const size_t count = motion.regions.size();
-  own.assign(count, {});
-  s.moves.assign(count, 0);
   s.trials.assign(count, {});
   s.mostPixels = 0;
   s.rounds = 0;
-  for (size_t i = 0; i < count; ++i) s.trials[i].shift = ownShift(in, i);
+  for (size_t i = 0; i < count; ++i)
+    if (own[i].isTried())
+      own[i].shift = compared.sinceThen(own[i].shift);
+    else
+      s.trials[i].shift = ownShift(in, i);
   if (!triesAny(s)) return;
   if (s.hidden.size() != motion.size) {
     s.hidden.resize(motion.size);
@@ -198,7 +202,7 @@ void findOwnMotion(const motion::Motion& motion, ImageView<const uint8_t> previo
   }
   s.expected.resize(motion.size);
   s.shown.resize(static_cast<size_t>(motion.size.height));
-  warpByCamera(previous, motion.camera, executor, s.expected, s.shown);
+  warpByCamera(compared.luma, compared.camera, executor, s.expected, s.shown);
   for (int round = 0; round < kOwnRounds; ++round) {
     measure(in, own, s);
     measureNoise(s);

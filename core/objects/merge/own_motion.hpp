@@ -2,7 +2,7 @@
 // What the pixels say of each region: whether it moves as the camera does or otherwise (part of
 // stage 5; U1 of the arcs between regions and the ground, core/objects/merge/mrf_merge.hpp).
 //
-// Vectors of small or plain regions are uncertain, so the pixels are asked: the previous frame is
+// Vectors of small or plain regions are uncertain, so the pixels are asked: an earlier frame is
 // shifted as the camera moved, and compared with and without a further shift. Tried is the region's
 // own vector; where that is the camera's, the step of the object that the region is expected to be;
 // then, where neither makes it move, the shift of the moving neighbour with the longest border.
@@ -23,6 +23,7 @@
 #include "core/base/memory/executor.hpp"
 #include "core/base/memory/image.hpp"
 #include "core/motion/motion.hpp"
+#include "core/objects/merge/compared_frame.hpp"
 #include "core/objects/merge/mrf_merge.hpp"
 
 #include <array>
@@ -54,7 +55,7 @@ struct OwnMotionScratch {
     Sums sums;          ///< Of the bands that are not left out.
     uint64_t seen = 0;  ///< Pixels of all bands.
   };
-  Image<uint8_t> expected;        ///< The previous frame as the camera's motion moves it,
+  Image<uint8_t> expected;        ///< The earlier frame as the camera's motion moves it,
   std::vector<ShownRange> shown;  ///< and of each row the columns that it shows.
   Image<uint16_t> hidden;         ///< Its pixels that a mover covered: the label of that, else 0;
                                   ///< all 0 between measurements.
@@ -75,19 +76,24 @@ struct OwnMotionScratch {
 
 struct OwnMotionRules {
   std::span<const ArcEnergy> arcs;  ///< Of the graph, as weighArcs() made them.
-  MergeWeights weights;  ///< Vectors that differ from the camera's by no more than the threshold
-                         ///< are the camera's.
+  MergeWeights weights;
   std::span<const TrackIndex> expected;  ///< Of each region the track that it is expected to be, or
                                          ///< none. May be empty.
-  std::span<const Point> steps;          ///< Of each track, pixels, with the camera's.
+  std::span<const Point> steps;          ///< Of each track since the earlier frame, pixels, with
+                                         ///< the camera's.
 };
 
-/// previous: the luma that `motion` was measured against; motion.camera tells how that moved. Cost:
+/// Nothing was tried of any region yet.
+void clearOwnMotion(size_t regions, OwnMotionScratch& scratch, std::vector<OwnMotion>& own);
+
+/// Regions that have not moved by more than a pixel otherwise than the camera have moved with it.
+/// own: of each region what the previous frame has shown, if that was asked before this one, or
+/// nothing (clearOwnMotion()); with the same scratch. Cost:
 /// follows the pixels of the movers and of their neighbours; where no vector differs from the
 /// camera's, nothing is compared. Where those are more than half a million pixels (a large frame
 /// that moves in parts, or of which the camera's motion was not found), some rows of each region
 /// stand for all.
-void findOwnMotion(const motion::Motion& motion, ImageView<const uint8_t> previous,
+void findOwnMotion(const motion::Motion& motion, const ComparedFrame& compared,
                    const OwnMotionRules& rules, const Executor& executor, OwnMotionScratch& scratch,
                    std::vector<OwnMotion>& own);
 

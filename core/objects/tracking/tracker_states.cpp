@@ -10,7 +10,8 @@ namespace rg::objects {
 namespace {
 
 constexpr int kUnit = kPositionUnit;
-constexpr uint32_t kConfirmHits = 3;
+constexpr int64_t kConfirmNs = 70'000'000;  // A new track is believed in once seen for so long,
+constexpr uint32_t kConfirmHits = 2;        // and more than once.
 constexpr uint32_t kSteadySamples = 12;
 constexpr uint32_t kSettledFrames = 3;  // What comes in keeps a height for so long: it is its own.
 constexpr int64_t kFlickerNs = 250'000'000;    // A new track that is unseen for longer was nothing.
@@ -288,7 +289,7 @@ void Tracker::settleState(Track& track, int64_t stepNs) const {
   track.hasMoved |= track.stillNs == 0 && hasLeft;
   const int64_t wayX = track.x - track.originX, wayY = track.foot - track.originFoot;
   track.hasTravelled |= 2 * (std::abs(wayX) + std::abs(wayY)) >= track.size.width;
-  if (track.hits >= kConfirmHits && track.hasMoved) track.isConfirmed = true;
+  track.isConfirmed |= track.hasMoved && track.hits >= kConfirmHits && track.seenNs >= kConfirmNs;
   if (!track.isConfirmed) return;
   if (track.isSeen)
     track.state = track.stillNs >= kStillNs ? ObjectState::Stopped : ObjectState::Tracked;

@@ -118,5 +118,42 @@ TEST(MovedCamera, OfNonsenseIsSafe) {
   }
 }
 
+TEST(CameraFollowed, LeadsThroughBothFrames) {
+  const CameraMotion other{{part(1.02), part(-.01), part(-4.5), part(.02), part(1.01), part(6),
+                            part(-2e-5), part(1e-5), kOne},
+                           {100, 50}};
+  const CameraMatrix all = matrixOf(followed(slanted(), other));
+  for (const Point p : {Point{0, 0}, Point{639, 0}, Point{320, 180}, Point{639, 359}}) {
+    const Place between = before(matrixOf(slanted()), p.x, p.y);
+    const Place was = before(matrixOf(other), between.x, between.y);
+    EXPECT_NEAR(before(all, p.x, p.y).x, was.x, 1e-3);
+    EXPECT_NEAR(before(all, p.x, p.y).y, was.y, 1e-3);
+  }
+}
+
+TEST(CameraFollowed, AfterNoMotionIsTheSame) {
+  EXPECT_EQ(followed(slanted(), {}), slanted());
+  EXPECT_EQ(followed(CameraMotion(Point{-37, 21}), CameraMotion(Point{5, 7})),
+            CameraMotion(Point{-32, 28}));
+}
+
+TEST(CameraFollowed, WhatCanNotBeComputedWithIsAShift) {
+  CameraMotion::Matrix all{};
+  all.fill(std::numeric_limits<int64_t>::max());
+  EXPECT_EQ(followed({all, {}}, slanted()), CameraMotion());
+  EXPECT_EQ(followed(slanted(), {all, {}}), CameraMotion());
+  // Twice as large again and again: beyond what numbers hold, it stays safe.
+  CameraMotion zoom{{kOne / 2, 0, part(3), 0, kOne / 2, part(5), 0, 0, kOne}, {0, 0}};
+  const CameraMotion step = zoom;
+  const CameraMotion out{{2 * kOne, 0, 0, 0, 2 * kOne, 0, 0, 0, kOne}, {0, 0}};
+  CameraMotion far;
+  for (int i = 0; i < 40; ++i) {
+    zoom = followed(step, zoom);
+    far = followed(out, far);
+    EXPECT_TRUE(zoom.isSafe());
+    EXPECT_TRUE(far.isSafe());
+  }
+}
+
 }  // namespace
 }  // namespace rg

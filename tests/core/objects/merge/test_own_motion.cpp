@@ -59,6 +59,11 @@ std::vector<objects::ArcEnergy> energiesOf(const motion::Motion& motion) {
   return energies;
 }
 
+/// The frame before.
+objects::ComparedFrame since(const Picture& previous, const motion::Motion& motion) {
+  return {previous.luma(), motion.camera};
+}
+
 struct Found {
   std::vector<uint8_t> moves;
   int rounds = 0;
@@ -71,9 +76,10 @@ Found searchFor(const Picture& previous, std::shared_ptr<const segmentation::Lab
   const motion::Motion motion = motionOf(std::move(labels), vectors);
   objects::OwnMotionScratch scratch;
   std::vector<objects::OwnMotion> own;
+  objects::clearOwnMotion(motion.regions.size(), scratch, own);
   const std::vector<objects::ArcEnergy> arcs = energiesOf(motion);
-  objects::findOwnMotion(motion, previous.luma(), {arcs, {}, expected, steps}, Executor(1), scratch,
-                         own);
+  objects::findOwnMotion(motion, since(previous, motion), {arcs, {}, expected, steps}, Executor(1),
+                         scratch, own);
   return {scratch.moves, scratch.rounds};
 }
 
@@ -196,7 +202,9 @@ TEST(OwnMotion, WorkIsBoundedWhereAllOfALargeFrameMoves) {
   const auto previous = at(0);
   objects::OwnMotionScratch scratch;
   std::vector<objects::OwnMotion> own;
-  objects::findOwnMotion(motion, previous->luma(), {arcs, {}, {}, {}}, Executor(1), scratch, own);
+  objects::clearOwnMotion(motion.regions.size(), scratch, own);
+  objects::findOwnMotion(motion, since(*previous, motion), {arcs, {}, {}, {}}, Executor(1), scratch,
+                         own);
   EXPECT_GT(scratch.mostPixels, 200'000u);
   EXPECT_LT(scratch.mostPixels, 600'000u);
   EXPECT_EQ(std::count(scratch.moves.begin(), scratch.moves.end(), 1), kTiles);
@@ -407,9 +415,11 @@ TEST(OwnMotion, IsThatOfEachPixelOnEveryTargetAndNumberOfThreads) {
     test::forEachTargetAndThreads([&](const std::shared_ptr<const Executor>& executor) {
       objects::OwnMotionScratch scratch;
       std::vector<objects::OwnMotion> own;
-      for (int frame = 0; frame < 2; ++frame)
-        objects::findOwnMotion(motion, previous->luma(), {arcs, {}, {}, {}}, *executor, scratch,
-                               own);
+      for (int frame = 0; frame < 2; ++frame) {
+        objects::clearOwnMotion(motion.regions.size(), scratch, own);
+        objects::findOwnMotion(motion, since(*previous, motion), {arcs, {}, {}, {}}, *executor,
+                               scratch, own);
+      }
       EXPECT_EQ(own, expected);
     });
   }

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "core/objects/movers.hpp"
+
+namespace rg::objects {
+
+void Movers::reset() {
+  past_.clear();
+  evidence_.reset();
+}
+
+void Movers::compareWith(const PastFrame& past, const motion::Motion& motion,
+                         const MoverRules& rules, const Executor& executor) {
+  steps_.clear();
+  for (const Track& track : rules.tracks)
+    steps_.push_back(Tracker::expectedShift(track, past.camera, past.ageNs));
+  findOwnMotion(motion, {past.picture->luma(), past.camera, past.ageNs, rules.stepNs},
+                {rules.arcs, rules.weights, rules.expected, steps_}, executor, scratch_, own_);
+}
+
+void Movers::find(const motion::Motion& motion, const MoverRules& rules, const Executor& executor) {
+  clearOwnMotion(motion.regions.size(), scratch_, own_);
+  // What was not matched with the previous frame is not like it.
+  if (motion.status == Status::Skipped) past_.clear();
+  past_.advance(motion.camera, rules.stepNs);
+  const PastFrame* older = past_.nearest(rules.perPixelNs);
+  const PastFrame* previous = past_.previous();
+  if (previous == nullptr || previous->picture->size() != motion.size) {
+    past_.clear();
+    evidence_.carry(motion, {}, rules.stepNs, executor);
+    return;
+  }
+  evidence_.carry(motion, previous->picture->luma(), rules.stepNs, executor);
+  compareWith(*previous, motion, rules, executor);
+  if (older == previous) return;
+  sinceLast_ = own_;
+  compareWith(*older, motion, rules, executor);
+  for (size_t i = 0; i < own_.size(); ++i)
+    if (sinceLast_[i].isTried() && sinceLast_[i].gain > own_[i].gain) own_[i] = sinceLast_[i];
+}
+
+void Movers::remember(const motion::Motion& motion, const MoverRules& rules,
+                      const Executor& executor) {
+  evidence_.add(motion, own_, executor);
+  past_.add(motion.graph->picture, rules.perPixelNs);
+}
+
+}  // namespace rg::objects
