@@ -20,7 +20,7 @@ shift || true
 make_chroot "$suite"
 copy_source "$root" /source
 echo "on_debian: what the build and the tests need, on a clean $suite"
-# GstAnalytics, where there is any, is among its headers.
-install_there libgstreamer-plugins-bad1.0-dev
+# GstAnalytics, where there is any, is among its headers. Meson takes ccache where it finds it.
+install_there libgstreamer-plugins-bad1.0-dev ccache
 in_chroot /source/tests/setup.sh
-in_chroot /source/tests/run.sh "$@"
+in_chroot env CCACHE_SLOPPINESS=pch_defines,time_macros /source/tests/run.sh "$@"

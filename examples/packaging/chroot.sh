@@ -8,11 +8,13 @@ mirror=${DEBIAN_MIRROR:-http://deb.debian.org/debian}
 chroots=${XDG_CACHE_HOME:-$HOME/.cache}/gst-regiongraph/chroots
 
 # A system without anything of ours in $chroot, which is gone when the script ends. The base that it
-# is copied from, and packages that were downloaded, stay for the next time.
+# is copied from, packages that were downloaded, and what ccache (where a script installs it) keeps,
+# stay for the next time.
 make_chroot() {  # SUITE
   local base=$chroots/$1
   archives=$chroots/$1-archives
-  mkdir -p "$archives"
+  compiled=$chroots/$1-ccache
+  mkdir -p "$archives" "$compiled"
   if [[ ! -d $base ]]; then
     rm -rf "$base.part"
     debootstrap --variant=minbase "$1" "$base.part" "$mirror" >"$base.log" 2>&1 ||
@@ -24,6 +26,7 @@ make_chroot() {  # SUITE
   chroot=$(mktemp -d "$chroots/$1.XXXXXX")
   trap 'rm -rf --one-file-system "$chroot"' EXIT
   cp -a --reflink=auto "$base/." "$chroot"
+  mkdir -p "$chroot/root/.cache/ccache"
 }
 
 # Runs a command there. Its mounts and processes end with it; it is not the first of them, which
@@ -33,10 +36,12 @@ in_chroot() {
   unshare --mount --pid --fork bash -ec '
     mount -t proc proc "$1/proc"
     mount --bind "$2" "$1/var/cache/apt/archives"
+    mount --bind "$3" "$1/root/.cache/ccache"
     where=$1
-    shift 2
+    shift 3
     env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin LC_ALL=C.UTF-8 \
-      DEBIAN_FRONTEND=noninteractive chroot "$where" "$@" || exit' bash "$chroot" "$archives" "$@"
+      DEBIAN_FRONTEND=noninteractive chroot "$where" "$@" || exit' \
+    bash "$chroot" "$archives" "$compiled" "$@"
 }
 
 # Installs packages, by name or as files in the chroot, without what they only recommend.

@@ -162,6 +162,15 @@ def check_versions():
             fail(f'{plugin} does not lie in {folder}')
 
 
+def check_documentation(folder):
+    """What hotdoc reads tells of the elements that are installed."""
+    described = json.loads((folder / 'elements/gst_plugins_cache.json').read_text(encoding='utf-8'))
+    for plugin in ('regiongraph', 'regiongraphoverlay'):
+        told = re.findall(r'^  (\w+): ', shell(f'gst-inspect-1.0 {plugin}'), re.M)
+        if not told or sorted(described[plugin]['elements']) != sorted(told):
+            fail(f'gst_plugins_cache.json does not describe the elements of {plugin}')
+
+
 def has(element):
     is_there = subprocess.run(['gst-inspect-1.0', '--exists', element], check=False).returncode == 0
     if not is_there:
@@ -212,6 +221,7 @@ def main():
         shell(CLIP)
         run_readme(text)
         check_versions()
+        check_documentation(folder)
         lines = by_lines()
         if len(lines) < FRAMES / 2:
             fail(f'only {len(lines)} boxes were found')

@@ -121,19 +121,26 @@ TEST(Messages, WithoutACaptureTimeTellNone) {
   EXPECT_FALSE(gst_structure_has_field(structureOf(message), "utc"));
 }
 
-/// A camera that begins to pan and zoom, told as of a frame twice as large.
-TEST(Messages, OfTheBackgroundsMotionHaveTheCamerasMatrix) {
+/// What is told of results by hand, as of a frame twice as large.
+MessagePtr messageOf(const objects::Objects& objects) {
   GstElement* element = gst_element_factory_make("mrfmerge", nullptr);
   gst_object_ref_sink(element);
   const BusPtr bus(gst_bus_new());
   gst_element_set_bus(element, bus.get());
   ObjectMessages messages(GST_BASE_TRANSFORM(element), GST_CAT_DEFAULT);
+  messages.tell(objects, {2 * objects.size.width, 2 * objects.size.height}, {});
+  gst_element_set_bus(element, nullptr);
+  gst_object_unref(element);
+  return MessagePtr(gst_bus_pop_filtered(bus.get(), GST_MESSAGE_ELEMENT));
+}
+
+/// A camera that begins to pan and zoom.
+TEST(Messages, OfTheBackgroundsMotionHaveTheCamerasMatrix) {
   constexpr int64_t kOne = CameraMotion::kOne;
   const auto objects = testing::objects({64, 48}, {});
   objects->cameraDx = -32;
   objects->camera = {{kOne / 2, 0, 2 * kOne, 0, kOne / 2, 0, 0, 0, kOne}, {32, 24}};
-  messages.tell(*objects, {128, 96}, {});
-  const MessagePtr message(gst_bus_pop_filtered(bus.get(), GST_MESSAGE_ELEMENT));
+  const MessagePtr message = messageOf(*objects);
   const GstStructure* fields = structureOf(message);
   ASSERT_TRUE(fields);
   EXPECT_TRUE(gst_structure_has_name(fields, "regiongraph-background-motion"));
@@ -143,22 +150,14 @@ TEST(Messages, OfTheBackgroundsMotionHaveTheCamerasMatrix) {
   for (guint i = 0; i < gst_value_array_get_size(matrix); ++i)
     numbers.push_back(g_value_get_double(gst_value_array_get_value(matrix, i)));
   EXPECT_EQ(numbers, (std::vector<double>{.5, 0, 36.25, 0, .5, 24.25, 0, 0, 1}));
-  gst_element_set_bus(element, nullptr);
-  gst_object_unref(element);
 }
 
-/// A merge, told by the elements of hand-made results: the box is the one round both.
+/// The box is the one round both.
 TEST(Messages, OfMergesTellTheBoxRoundAll) {
-  GstElement* element = gst_element_factory_make("mrfmerge", nullptr);
-  gst_object_ref_sink(element);
-  const BusPtr bus(gst_bus_new());
-  gst_element_set_bus(element, bus.get());
-  ObjectMessages messages(GST_BASE_TRANSFORM(element), GST_CAT_DEFAULT);
   const auto objects = testing::objects(
       {64, 48}, {testing::object(1, {10, 10, 8, 4}), testing::object(2, {20, 20, 8, 4})});
   objects->events = {{objects::EventKind::Merge, {1, 2}}};
-  messages.tell(*objects, {128, 96}, {});
-  const MessagePtr message(gst_bus_pop_filtered(bus.get(), GST_MESSAGE_ELEMENT));
+  const MessagePtr message = messageOf(*objects);
   const GstStructure* fields = structureOf(message);
   ASSERT_TRUE(fields);
   EXPECT_TRUE(gst_structure_has_name(fields, "regiongraph-merge"));
@@ -167,8 +166,6 @@ TEST(Messages, OfMergesTellTheBoxRoundAll) {
                                 &width, "h", G_TYPE_INT, &height, nullptr));
   EXPECT_EQ((Box{x, y, width, height}), (Box{20, 20, 36, 28}));
   EXPECT_EQ(gst_value_array_get_size(gst_structure_get_value(fields, "states")), 2u);
-  gst_element_set_bus(element, nullptr);
-  gst_object_unref(element);
 }
 
 }  // namespace

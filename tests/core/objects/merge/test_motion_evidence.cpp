@@ -44,12 +44,18 @@ std::vector<objects::OwnMotion> squareGains(int64_t ofPixel) {
   return {{}, {{4, 0}, ofPixel * 16 * 16}};
 }
 
+/// That the square of frame 0 moves.
+objects::MotionEvidence evidenceOfSquare(const Executor& executor) {
+  objects::MotionEvidence evidence;
+  evidence.carry(motionOf(0), {}, 0, executor);
+  EXPECT_EQ(evidence.gainOf(1), 0);
+  evidence.add(motionOf(0), squareGains(kGain), executor);
+  return evidence;
+}
+
 TEST(MotionEvidence, GoesAlongWithWhatItWasFoundOfAndFades) {
   test::forEachTargetAndThreads([&](const std::shared_ptr<const Executor>& executor) {
-    objects::MotionEvidence evidence;
-    evidence.carry(motionOf(0), {}, 0, *executor);
-    EXPECT_EQ(evidence.gainOf(1), 0);
-    evidence.add(motionOf(0), squareGains(kGain), *executor);
+    objects::MotionEvidence evidence = evidenceOfSquare(*executor);
     int64_t last = kGain * 16 * 16;
     for (int frame = 1; frame < 5; ++frame) {
       evidence.carry(motionOf(frame), pictureOf(frame - 1)->luma(), kStepNs, *executor);
@@ -63,10 +69,8 @@ TEST(MotionEvidence, GoesAlongWithWhatItWasFoundOfAndFades) {
 }
 
 TEST(MotionEvidence, IsTakenBackByPixelsThatFollowTheGround) {
-  objects::MotionEvidence evidence;
   const Executor executor(1);
-  evidence.carry(motionOf(0), {}, 0, executor);
-  evidence.add(motionOf(0), squareGains(kGain), executor);
+  objects::MotionEvidence evidence = evidenceOfSquare(executor);
   evidence.carry(motionOf(1), pictureOf(0)->luma(), kStepNs, executor);
   evidence.add(motionOf(1), squareGains(-4 * kGain), executor);
   evidence.carry(motionOf(2), pictureOf(1)->luma(), kStepNs, executor);
@@ -74,19 +78,15 @@ TEST(MotionEvidence, IsTakenBackByPixelsThatFollowTheGround) {
 }
 
 TEST(MotionEvidence, IsNotTakenOverByWhatLooksOtherwise) {
-  objects::MotionEvidence evidence;
   const Executor executor(1);
-  evidence.carry(motionOf(0), {}, 0, executor);
-  evidence.add(motionOf(0), squareGains(kGain), executor);
+  objects::MotionEvidence evidence = evidenceOfSquare(executor);
   evidence.carry(motionOf(1, 90), pictureOf(0)->luma(), kStepNs, executor);
   EXPECT_EQ(evidence.gainOf(1), 0);
 }
 
 TEST(MotionEvidence, AChangeOfSizeOrSceneForgetsIt) {
-  objects::MotionEvidence evidence;
   const Executor executor(1);
-  evidence.carry(motionOf(0), {}, 0, executor);
-  evidence.add(motionOf(0), squareGains(kGain), executor);
+  objects::MotionEvidence evidence = evidenceOfSquare(executor);
   evidence.carry(motionOf(1), {}, kStepNs, executor);
   EXPECT_EQ(evidence.gainOf(1), 0);
   evidence.add(motionOf(1), squareGains(kGain), executor);
