@@ -59,8 +59,9 @@ bool Operations::hasSwitchedColour(const SmoothPicture& picture, const Consensus
   return background::hasSwitchedColour(picture, model);
 }
 
-Point Operations::findShift(const SmoothPicture& picture, const ConsensusBackground& model) {
-  return background::findShift(picture, model);
+Shift Operations::findShift(const SmoothPicture& picture, const ConsensusBackground& model,
+                            Point centre) {
+  return bestShift(sumShifted(picture, model, centre), centre);
 }
 
 void Operations::shiftPicture(Point shift, SmoothPicture& spare, SmoothPicture& picture) {

@@ -11,6 +11,7 @@
 #include "core/background/light/light_switch.hpp"
 #include "core/background/mask_cleaning.hpp"
 #include "core/background/models/consensus_background.hpp"
+#include "core/background/scene_watch.hpp"
 #include "core/background/shadows/cast_shadows.hpp"
 #include "core/base/bit_mask.hpp"
 #include "core/base/components.hpp"
@@ -55,7 +56,8 @@ class Operations {
   virtual bool isDarkerThan(const SmoothPicture& picture, int level);
   virtual bool isEverywhere(const BitMask& mask);
   virtual bool hasSwitchedColour(const SmoothPicture& picture, const ConsensusBackground& model);
-  virtual Point findShift(const SmoothPicture& picture, const ConsensusBackground& model);
+  virtual Shift findShift(const SmoothPicture& picture, const ConsensusBackground& model,
+                          Point centre);
   virtual void shiftPicture(Point shift, SmoothPicture& spare, SmoothPicture& picture);
   virtual Histogram countLevels(const Image<uint8_t>& plane);
   virtual LevelMaps matchLight(const ShownModel& shown, const SmoothPicture& picture);

@@ -132,12 +132,15 @@ class GpuOperations final : public Cpu, private Dispatcher {
         },
         [&] { return rg::background::countVivid(picture, model); }, Reads{picture}, Reads{model}));
   }
-  Point findShift(const SmoothPicture& picture, const ConsensusBackground& model) override {
-    return bestShift(ask<ShiftedSums>(
-        [&](ShiftedSums* sums) {
-          sumShifted(on().read(picture), on().read(model), sums, stream());
+  rg::background::Shift findShift(const SmoothPicture& picture, const ConsensusBackground& model,
+                                  Point centre) override {
+    const ShiftedSums sums = ask<ShiftedSums>(
+        [&](ShiftedSums* to) {
+          sumShifted(on().read(picture), on().read(model), centre, to, stream());
         },
-        [&] { return rg::background::sumShifted(picture, model); }, Reads{picture}, Reads{model}));
+        [&] { return rg::background::sumShifted(picture, model, centre); }, Reads{picture},
+        Reads{model});
+    return bestShift(sums, centre);
   }
   void shiftPicture(Point shift, SmoothPicture& spare, SmoothPicture& picture) override {
     run(
