@@ -274,6 +274,7 @@ void ConsensusMethod::clean(const MethodJob& job) {
   const auto pixels = static_cast<uint32_t>(mask_.size().area());
   const int radius = pixels < 40000 ? 1 : pixels < 200000 ? 2 : 3;
   job.on.keepMajority(verdicts_.raw, radius, kMajority, mask_);
+  job.on.dropSwaying(smooth_, model_, toleranceOf(job), mask_);
   job.on.keepSupported(mask_, verdicts_.strong, leastStrongPx(pixels));
   job.on.fillHoles(mask_, pixels / 50);
   job.on.fillUnedged(smooth_, kMostGapStep, mostGapPx(mask_.size()), mask_);

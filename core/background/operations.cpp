@@ -102,6 +102,11 @@ void Operations::keepSupported(BitMask& mask, const BitMask& strong, uint32_t le
   background::keepSupported(mask, strong, leastPx, cleaning_);
 }
 
+void Operations::dropSwaying(const SmoothPicture& picture, const ConsensusBackground& model,
+                             const Tolerance& tolerance, BitMask& mask) {
+  background::dropSwaying(picture, model, tolerance, sway_, mask);
+}
+
 void Operations::fillHoles(BitMask& mask, uint32_t mostPx) {
   background::fillHoles(mask, mostPx, cleaning_);
 }

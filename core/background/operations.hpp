@@ -7,6 +7,7 @@
 #include "core/background/ghosts/displaced_things.hpp"
 #include "core/background/ghosts/ghosts.hpp"
 #include "core/background/ghosts/mask_contour.hpp"
+#include "core/background/ghosts/swaying_parts.hpp"
 #include "core/background/light/exposure.hpp"
 #include "core/background/light/light_switch.hpp"
 #include "core/background/mask_cleaning.hpp"
@@ -71,6 +72,8 @@ class Operations {
   // Masks.
   virtual void keepMajority(const BitMask& mask, int radius, int share, BitMask& out);
   virtual void keepSupported(BitMask& mask, const BitMask& strong, uint32_t leastPx);
+  virtual void dropSwaying(const SmoothPicture& picture, const ConsensusBackground& model,
+                           const Tolerance& tolerance, BitMask& mask);
   virtual void fillHoles(BitMask& mask, uint32_t mostPx);
   virtual void dropSmallParts(BitMask& mask, uint32_t leastPx);
   virtual void fillUnedged(const SmoothPicture& picture, int mostStep, uint32_t mostPx,
@@ -112,6 +115,7 @@ class Operations {
   CleaningScratch cleaning_;
   GapScratch gaps_;
   ContourScratch contour_;
+  SwayScratch sway_;
   StillScratch still_;
   DisplacedScratch moved_;
   CastShadowScratch castShadows_;
