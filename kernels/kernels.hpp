@@ -35,4 +35,5 @@
 #include "kernels/scopes.hpp"
 #include "kernels/shadow.hpp"
 #include "kernels/shift_search.hpp"
+#include "kernels/swaying_parts.hpp"
 #include "kernels/thresholds.hpp"

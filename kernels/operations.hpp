@@ -35,6 +35,7 @@
   X(dropSmallParts, rg::background::dropSmallParts, rg::gpu::background::dropSmallParts)    \
   X(fillHoles, rg::background::fillHoles, rg::gpu::background::fillHoles)                   \
   X(keepSupported, rg::background::keepSupported, rg::gpu::background::keepSupported)       \
+  X(dropSwaying, rg::background::dropSwaying, rg::gpu::background::dropSwaying)             \
   X(smoothAndJudge, rg::background::smoothAndJudge, rg::gpu::background::smoothAndJudge)    \
   X(growFaint, rg::background::growFaint, rg::gpu::background::growFaint)                   \
   X(trimBorder, rg::background::trimBorder, rg::gpu::background::trimBorder)                \

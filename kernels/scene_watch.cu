@@ -58,12 +58,14 @@ __global__ void countVividPoints(const __grid_constant__ Planes picture,
   if (threadIdx.x == 0) *out = all;
 }
 
-/// A block for each shift.
+/// A block for each shift, and one for none.
 __global__ void sumOffPoints(const __grid_constant__ Planes picture,
-                             const __grid_constant__ ModelView model, PointGrid grid,
+                             const __grid_constant__ ModelView model, PointGrid grid, Point centre,
                              ShiftedSums* out) {
   RG_SHARED(uint32_t, values, kReduceWarps);
-  const Point shift = ShiftedSums::shift(static_cast<int>(blockIdx.x));
+  const bool isMoved = blockIdx.x < ShiftedSums::kShifts;
+  const Point by = ShiftedSums::shift(static_cast<int>(blockIdx.x));
+  const Point shift = isMoved ? Point{centre.x + by.x, centre.y + by.y} : Point{};
   uint32_t own = 0;
   forPoints(grid, [&](Point p) {
     const int now = picture.planes[0].at(p.x - shift.x, p.y - shift.y);
@@ -72,7 +74,7 @@ __global__ void sumOffPoints(const __grid_constant__ Planes picture,
     own += static_cast<uint32_t>(off < kMost ? off : kMost);
   });
   own = reduceBlock(own, values, Total{});
-  if (threadIdx.x == 0) out->off[blockIdx.x] = own;
+  if (threadIdx.x == 0) (isMoved ? out->off[blockIdx.x] : out->unmoved) = own;
 }
 
 /// A block for each field.
@@ -121,10 +123,12 @@ void countVivid(const Planes& picture, const ModelView& model, VividPoints* poin
         points);
 }
 
-void sumShifted(const Planes& picture, const ModelView& model, ShiftedSums* sums, Stream stream) {
-  const PointGrid grid = PointGrid::over(picture.size(), ShiftedSums::kMostShift);
-  start(overPoints("sumShifted", grid, ShiftedSums::kShifts, 5), stream, sumOffPoints, picture,
-        model, grid, sums);
+void sumShifted(const Planes& picture, const ModelView& model, Point centre, ShiftedSums* sums,
+                Stream stream) {
+  const PointGrid grid =
+      PointGrid::over(picture.size(), rg::background::mostShiftPx(picture.size()));
+  start(overPoints("sumShifted", grid, ShiftedSums::kShifts + 1, 5), stream, sumOffPoints, picture,
+        model, grid, centre, sums);
 }
 
 void countFullFields(const BitView& raw, int* full, Stream stream) {

@@ -14,8 +14,8 @@ void countLit(const Planes& picture, int level, rg::background::LitPoints* point
 /// Of a colour picture.
 void countVivid(const Planes& picture, const ModelView& model, rg::background::VividPoints* points,
                 Stream stream);
-void sumShifted(const Planes& picture, const ModelView& model, rg::background::ShiftedSums* sums,
-                Stream stream);
+void sumShifted(const Planes& picture, const ModelView& model, Point centre,
+                rg::background::ShiftedSums* sums, Stream stream);
 void countFullFields(const BitView& raw, int* full, Stream stream);
 
 /// In and out must differ.

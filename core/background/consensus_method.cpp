@@ -27,6 +27,11 @@ constexpr uint32_t kOddShare = 8;           ///< Of 256: foreground that makes u
 constexpr uint32_t kLightShare = 102;       ///< Of 256: foreground that asks for a reason.
 constexpr uint32_t kOtherSceneShare = 192;  ///< Of 256: foreground that no object covers.
 
+/// Of 256: share of the difference that a shift of the camera explains, where it stood still and
+/// where it sways, so that a shift is more likely than none.
+constexpr uint32_t kPushedShare = 64, kSwayingShare = 32;
+constexpr int kMostSteps = 4;  ///< From where it was last, three pixels each.
+
 constexpr int kDarkLevel = 12, kBrightLevel = 18;  ///< Grey levels: from where, and until where.
 
 constexpr bool startsAnew(SceneEvent event) {
@@ -50,6 +55,7 @@ class ConsensusMethod final : public MethodModel {
   void learnGain(const MethodJob& job);
   bool isTooDark(const MethodJob& job, Foreground& out);
   void watch(const MethodJob& job, uint64_t differing, Foreground& out);
+  [[nodiscard]] Point findShift(const MethodJob& job);
   SceneEvent followCamera(const MethodJob& job);
   SceneEvent followLight(const MethodJob& job);
   bool isElsewhere(const MethodJob& job);
@@ -76,6 +82,7 @@ class ConsensusMethod final : public MethodModel {
   int gain_ = kSameGain;          ///< The camera's, against the model's.
   Point shift_;                   ///< The camera's, from the model.
   SmoothPicture spare_;           ///< For shifting.
+  bool sways_ = false;            ///< The camera was off its place within the last second.
   uint32_t calmFrames_ = 0;       ///< Since the camera was off its place.
   uint32_t offFrames_ = 0;        ///< It has been off by the same shift.
   uint32_t elsewhereFrames_ = 0;  ///< The picture has differed everywhere.
@@ -95,6 +102,7 @@ void ConsensusMethod::start(const MethodJob& job, Foreground& out) {
   clear(still_);
   frame_ = {};
   shift_ = {};
+  sways_ = false;
   gain_ = kSameGain;
   offFrames_ = elsewhereFrames_ = 0;
   out.status = Status::Training;
@@ -164,9 +172,30 @@ bool ConsensusMethod::isTooDark(const MethodJob& job, Foreground& out) {
   return true;
 }
 
-/// A camera that was pushed sees what the model knows beside its place. The picture is put there.
+/// A camera that stood still is looked for close by; one that sways goes on from where it was, too,
+/// and is followed downhill. Where that does not end, it is no shift, but something that looks like
+/// one, as light on a slope of colour does.
+Point ConsensusMethod::findShift(const MethodJob& job) {
+  Shift found = job.on.findShift(smooth_, model_, {});
+  if (!sways_) return found.explains(kPushedShare) ? found.by : Point{};
+  const Size size = smooth_.size();
+  Point centre = centreWithin(shift_ == Point{} ? found.by : shift_, size);
+  for (int i = 0; i < kMostSteps && centre != Point{}; ++i) {
+    const Shift there = job.on.findShift(smooth_, model_, centre);
+    if (there.off >= found.off) break;
+    found = there;
+    centre = centreWithin(found.by, size);
+  }
+  const int most = mostShiftPx(size);
+  const bool isLost = absDiff(found.by.x, 0) == most || absDiff(found.by.y, 0) == most;
+  return !isLost && found.explains(kSwayingShare) ? found.by : Point{};
+}
+
+/// A camera that sways sees what the model knows beside its place. The picture is put there, by
+/// whole pixels: where the rest of a shift falls is what the model has seen before.
 SceneEvent ConsensusMethod::followCamera(const MethodJob& job) {
-  const Point before = std::exchange(shift_, job.on.findShift(smooth_, model_));
+  const Point before = std::exchange(shift_, findShift(job));
+  sways_ = shift_ != Point{} || (sways_ && calmFrames_ < job.clock.frames(1.0));
   if (shift_ == Point{}) {
     offFrames_ = 0;
     ++calmFrames_;
@@ -190,7 +219,7 @@ bool ConsensusMethod::isElsewhere(const MethodJob& job) {
 void ConsensusMethod::watch(const MethodJob& job, uint64_t differing, Foreground& out) {
   const auto pixels = static_cast<uint64_t>(smooth_.size().area());
   SceneEvent& event = out.scene.event;
-  if (differing * 256 < pixels * kOddShare) {
+  if (differing * 256 < pixels * kOddShare && !sways_) {
     shift_ = {};
     offFrames_ = elsewhereFrames_ = 0;
     ++calmFrames_;
@@ -245,6 +274,7 @@ void ConsensusMethod::clean(const MethodJob& job) {
   const auto pixels = static_cast<uint32_t>(mask_.size().area());
   const int radius = pixels < 40000 ? 1 : pixels < 200000 ? 2 : 3;
   job.on.keepMajority(verdicts_.raw, radius, kMajority, mask_);
+  job.on.dropSwaying(smooth_, model_, toleranceOf(job), mask_);
   job.on.keepSupported(mask_, verdicts_.strong, leastStrongPx(pixels));
   job.on.fillHoles(mask_, pixels / 50);
   job.on.fillUnedged(smooth_, kMostGapStep, mostGapPx(mask_.size()), mask_);

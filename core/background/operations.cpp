@@ -59,8 +59,9 @@ bool Operations::hasSwitchedColour(const SmoothPicture& picture, const Consensus
   return background::hasSwitchedColour(picture, model);
 }
 
-Point Operations::findShift(const SmoothPicture& picture, const ConsensusBackground& model) {
-  return background::findShift(picture, model);
+Shift Operations::findShift(const SmoothPicture& picture, const ConsensusBackground& model,
+                            Point centre) {
+  return bestShift(sumShifted(picture, model, centre), centre);
 }
 
 void Operations::shiftPicture(Point shift, SmoothPicture& spare, SmoothPicture& picture) {
@@ -99,6 +100,11 @@ void Operations::keepMajority(const BitMask& mask, int radius, int share, BitMas
 
 void Operations::keepSupported(BitMask& mask, const BitMask& strong, uint32_t leastPx) {
   background::keepSupported(mask, strong, leastPx, cleaning_);
+}
+
+void Operations::dropSwaying(const SmoothPicture& picture, const ConsensusBackground& model,
+                             const Tolerance& tolerance, BitMask& mask) {
+  background::dropSwaying(picture, model, tolerance, sway_, mask);
 }
 
 void Operations::fillHoles(BitMask& mask, uint32_t mostPx) {

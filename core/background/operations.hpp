@@ -7,10 +7,12 @@
 #include "core/background/ghosts/displaced_things.hpp"
 #include "core/background/ghosts/ghosts.hpp"
 #include "core/background/ghosts/mask_contour.hpp"
+#include "core/background/ghosts/swaying_parts.hpp"
 #include "core/background/light/exposure.hpp"
 #include "core/background/light/light_switch.hpp"
 #include "core/background/mask_cleaning.hpp"
 #include "core/background/models/consensus_background.hpp"
+#include "core/background/scene_watch.hpp"
 #include "core/background/shadows/cast_shadows.hpp"
 #include "core/base/bit_mask.hpp"
 #include "core/base/components.hpp"
@@ -55,7 +57,8 @@ class Operations {
   virtual bool isDarkerThan(const SmoothPicture& picture, int level);
   virtual bool isEverywhere(const BitMask& mask);
   virtual bool hasSwitchedColour(const SmoothPicture& picture, const ConsensusBackground& model);
-  virtual Point findShift(const SmoothPicture& picture, const ConsensusBackground& model);
+  virtual Shift findShift(const SmoothPicture& picture, const ConsensusBackground& model,
+                          Point centre);
   virtual void shiftPicture(Point shift, SmoothPicture& spare, SmoothPicture& picture);
   virtual Histogram countLevels(const Image<uint8_t>& plane);
   virtual LevelMaps matchLight(const ShownModel& shown, const SmoothPicture& picture);
@@ -69,6 +72,8 @@ class Operations {
   // Masks.
   virtual void keepMajority(const BitMask& mask, int radius, int share, BitMask& out);
   virtual void keepSupported(BitMask& mask, const BitMask& strong, uint32_t leastPx);
+  virtual void dropSwaying(const SmoothPicture& picture, const ConsensusBackground& model,
+                           const Tolerance& tolerance, BitMask& mask);
   virtual void fillHoles(BitMask& mask, uint32_t mostPx);
   virtual void dropSmallParts(BitMask& mask, uint32_t leastPx);
   virtual void fillUnedged(const SmoothPicture& picture, int mostStep, uint32_t mostPx,
@@ -110,6 +115,7 @@ class Operations {
   CleaningScratch cleaning_;
   GapScratch gaps_;
   ContourScratch contour_;
+  SwayScratch sway_;
   StillScratch still_;
   DisplacedScratch moved_;
   CastShadowScratch castShadows_;

@@ -58,34 +58,44 @@ bool hasSwitchedColour(const SmoothPicture& picture, const ConsensusBackground& 
   return picture.channels != 1 && hasSwitchedColour(countVivid(picture, model));
 }
 
-ShiftedSums sumShifted(const SmoothPicture& picture, const ConsensusBackground& model) {
-  constexpr int kMostShift = ShiftedSums::kMostShift;
+ShiftedSums sumShifted(const SmoothPicture& picture, const ConsensusBackground& model,
+                       Point centre) {
+  constexpr int kMostOff = ShiftedSums::kMostOff, kReach = ShiftedSums::kReach;
   ShiftedSums sums;
-  forGrid(picture.size(), kMostShift, [&](Point p) {
+  forGrid(picture.size(), mostShiftPx(picture.size()), [&](Point p) {
     const int there = modelled(model, p);
-    uint32_t* off = sums.off;
-    for (int y = -kMostShift; y <= kMostShift; ++y) {
-      const uint8_t* row = picture.planes[0].row(p.y - y) + p.x;
-      for (int x = -kMostShift; x <= kMostShift; ++x)
-        *off++ += static_cast<uint32_t>(std::min(+ShiftedSums::kMostOff, absDiff(row[-x], there)));
+    const auto off = [&](int now) {
+      return static_cast<uint32_t>(std::min(kMostOff, absDiff(now, there)));
+    };
+    sums.unmoved += off(picture.planes[0].at(p.x, p.y));
+    uint32_t* sum = sums.off;
+    for (int y = -kReach; y <= kReach; ++y) {
+      const uint8_t* row = picture.planes[0].row(p.y - centre.y - y) + p.x - centre.x;
+      for (int x = -kReach; x <= kReach; ++x) *sum++ += off(row[-x]);
     }
   });
   return sums;
 }
 
-Point bestShift(const ShiftedSums& sums) {
-  const uint32_t unmoved = sums.off[ShiftedSums::kShifts / 2];
-  std::tuple<uint32_t, int, int, int> best{unmoved, 0, 0, 0};
+Shift bestShift(const ShiftedSums& sums, Point centre) {
+  constexpr uint64_t kFarther = 256;  // Of which one for each pixel must be explained.
+  std::tuple<uint64_t, int, int, int> best{kFarther * sums.unmoved, 0, 0, 0};
+  Shift found{{}, sums.unmoved, sums.unmoved};
   for (int i = 0; i < ShiftedSums::kShifts; ++i) {
-    const Point to = ShiftedSums::shift(i);
-    best = std::min(best, {sums.off[i], to.x * to.x + to.y * to.y, to.y, to.x});
+    const Point by = ShiftedSums::shift(i), to{centre.x + by.x, centre.y + by.y};
+    const auto way = static_cast<uint64_t>(absDiff(to.x, 0) + absDiff(to.y, 0));
+    const std::tuple key{kFarther * sums.off[i] + way * sums.unmoved, to.x * to.x + to.y * to.y,
+                         to.y, to.x};
+    if (key >= best) continue;
+    best = key;
+    found = {to, sums.off[i], sums.unmoved};
   }
-  const auto [least, distance, y, x] = best;
-  return 4 * least <= 3 * unmoved ? Point{x, y} : Point{};
+  return found;
 }
 
-Point findShift(const SmoothPicture& picture, const ConsensusBackground& model) {
-  return bestShift(sumShifted(picture, model));
+Point centreWithin(Point shift, Size size) {
+  const int most = mostShiftPx(size) - ShiftedSums::kReach;
+  return {std::clamp(shift.x, -most, most), std::clamp(shift.y, -most, most)};
 }
 
 void shiftPicture(Point shift, const Executor& executor, SmoothPicture& spare,

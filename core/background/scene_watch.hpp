@@ -77,21 +77,27 @@ struct VividPoints {
 /// Of a colour picture.
 [[nodiscard]] bool hasSwitchedColour(const VividPoints& points);
 
-/// By how much the picture is off the model at the points of a grid, for each shift of it.
+/// By how much the picture is off the model at the points of a grid, for each of its shifts round
+/// one of them, and without any.
 struct ShiftedSums {
-  static constexpr int kMostShift = 3, kSide = 2 * kMostShift + 1, kShifts = kSide * kSide;
+  static constexpr int kReach = 3, kSide = 2 * kReach + 1, kShifts = kSide * kSide;
   static constexpr int kMostOff = 32;  ///< Grey levels that a point counts at most: it may be an
                                        ///< object's.
   uint32_t off[kShifts] = {};          ///< Of up to 2^16 points.
+  uint32_t unmoved = 0;
 
   [[nodiscard]] static constexpr Point shift(int i) {
-    return {i % kSide - kMostShift, i / kSide - kMostShift};
+    return {i % kSide - kReach, i / kSide - kReach};
   }
 };
-[[nodiscard]] ShiftedSums sumShifted(const SmoothPicture& picture,
-                                     const ConsensusBackground& model);
-/// What findShift() says.
-[[nodiscard]] Point bestShift(const ShiftedSums& sums);
+/// The most that a shaken camera is looked for, each way.
+[[nodiscard]] constexpr int mostShiftPx(Size size) {
+  return std::max(ShiftedSums::kReach, std::min(size.width, size.height) / 12);
+}
+/// centre: of the shifts that are tried, within centreWithin().
+[[nodiscard]] ShiftedSums sumShifted(const SmoothPicture& picture, const ConsensusBackground& model,
+                                     Point centre);
+[[nodiscard]] Point centreWithin(Point shift, Size size);
 
 /// Nothing to be seen: no more than one point in 50 is brighter than `level`. Something lit before
 /// pure black is seen all the same: there is no noise to be taken for it, as in drawn pictures.
@@ -102,10 +108,18 @@ struct ShiftedSums {
 [[nodiscard]] bool hasSwitchedColour(const SmoothPicture& picture,
                                      const ConsensusBackground& model);
 
-/// How far the model's content is from where the picture shows it, at most 3 pixels each way:
-/// model(p + shift) = picture(p). {0, 0} unless that explains at least a quarter of the difference;
-/// the smallest of equal ones.
-[[nodiscard]] Point findShift(const SmoothPicture& picture, const ConsensusBackground& model);
+/// How far the model's content is from where the picture shows it: model(p + shift) = picture(p).
+struct Shift {
+  Point by;
+  uint32_t off = 0, unmoved = 0;  ///< By how much the two differ then, and without a shift.
+
+  /// Whether it explains so much of the difference; share: of 256.
+  [[nodiscard]] constexpr bool explains(uint32_t share) const {
+    return 256 * uint64_t{off} <= (256 - share) * uint64_t{unmoved};
+  }
+};
+/// The best of those looked at, the smallest of equal ones.
+[[nodiscard]] Shift bestShift(const ShiftedSums& sums, Point centre);
 
 /// Moves the picture's content by `shift`; its border is repeated. `spare` is scratch.
 void shiftPicture(Point shift, const Executor& executor, SmoothPicture& spare,

@@ -14,6 +14,7 @@
 #include "kernels/mask_gaps.hpp"
 #include "kernels/scene_watch.hpp"
 #include "kernels/shadow.hpp"
+#include "kernels/swaying_parts.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -132,12 +133,13 @@ class GpuOperations final : public Cpu, private Dispatcher {
         },
         [&] { return rg::background::countVivid(picture, model); }, Reads{picture}, Reads{model}));
   }
-  Point findShift(const SmoothPicture& picture, const ConsensusBackground& model) override {
-    return bestShift(ask<ShiftedSums>(
-        [&](ShiftedSums* sums) {
-          sumShifted(on().read(picture), on().read(model), sums, stream());
-        },
-        [&] { return rg::background::sumShifted(picture, model); }, Reads{picture}, Reads{model}));
+  rg::background::Shift findShift(const SmoothPicture& picture, const ConsensusBackground& model,
+                                  Point centre) override {
+    const auto onDevice = [&](ShiftedSums* sums) {
+      sumShifted(on().read(picture), on().read(model), centre, sums, stream());
+    };
+    const auto onCpu = [&] { return rg::background::sumShifted(picture, model, centre); };
+    return bestShift(ask<ShiftedSums>(onDevice, onCpu, Reads{picture}, Reads{model}), centre);
   }
   void shiftPicture(Point shift, SmoothPicture& spare, SmoothPicture& picture) override {
     run(
@@ -203,6 +205,17 @@ class GpuOperations final : public Cpu, private Dispatcher {
         },
         [&] { Cpu::keepSupported(mask, strong, leastPx); }, Changes{mask}, Reads{strong});
   }
+  void dropSwaying(const SmoothPicture& picture, const ConsensusBackground& model,
+                   const Tolerance& tolerance, BitMask& mask) override {
+    run(
+        [&] {
+          const SwayView view{scratchMask(mask.size()), components(mask.size())};
+          background::dropSwaying(on().read(picture), on().read(model), tolerance, view,
+                                  on().change(mask), stream());
+        },
+        [&] { Cpu::dropSwaying(picture, model, tolerance, mask); }, Reads{picture}, Reads{model},
+        Changes{mask});
+  }
   void fillHoles(BitMask& mask, uint32_t mostPx) override {
     run(
         [&] {
@@ -226,8 +239,8 @@ class GpuOperations final : public Cpu, private Dispatcher {
           const Size size = mask.size();
           const GapView view{scratchMask(size), scratchMask(size), components(size),
                              scratch().take<GapContour>(mostRuns(size))};
-          const Planes from = on().read(picture);
-          rg::gpu::fillUnedged(from.planes[0], mostStep, mostPx, view, on().change(mask), stream());
+          rg::gpu::fillUnedged(on().read(picture).planes[0], mostStep, mostPx, view,
+                               on().change(mask), stream());
         },
         [&] { Cpu::fillUnedged(picture, mostStep, mostPx, mask); }, Reads{picture.planes[0]},
         Changes{mask});
@@ -237,9 +250,8 @@ class GpuOperations final : public Cpu, private Dispatcher {
         [&] {
           const Size size = mask.size();
           const ContourView view{scratchMask(size), scratchMask(size), scratchMask(size)};
-          const BitView faint = on().read(evidence.faint);
-          background::growFaint(on().read(evidence.picture), on().read(evidence.model), faint, view,
-                                on().change(mask), stream());
+          background::growFaint(on().read(evidence.picture), on().read(evidence.model),
+                                on().read(evidence.faint), view, on().change(mask), stream());
         },
         [&] { Cpu::growFaint(evidence, mask); }, Reads{evidence.picture}, Reads{evidence.model},
         Reads{evidence.faint}, Writes{evidence.shown}, Changes{mask});
@@ -344,8 +356,8 @@ class GpuOperations final : public Cpu, private Dispatcher {
                        Image<uint8_t>& out) override {
     run(
         [&] {
-          const BitView solid = on().read(mask);
-          background::paintForeground(solid, on().read(shadow), shift, on().write(out), stream());
+          background::paintForeground(on().read(mask), on().read(shadow), shift, on().write(out),
+                                      stream());
         },
         [&] { Cpu::paintForeground(mask, shadow, shift, out); }, Reads{mask}, Reads{shadow},
         Writes{out});

@@ -66,6 +66,7 @@ void launchCleaning(const Memory& m) {
     gpu::background::fillHoles(m.bits, pixels / 50, {}, nullptr);
   };
   gpu::background::keepMajority(m.bits, 3, 115, m.bits, nullptr);
+  gpu::background::dropSwaying(m.planes, m.model, {5, 20}, {m.bits, {}}, m.bits, nullptr);
   keepWhole();
   gpu::fillUnedged(m.planes.planes[0], kMostGapStep, mostGapPx(m.size), {m.bits, m.bits, {}, {}},
                    m.bits, nullptr);

@@ -2,6 +2,7 @@
 #include "core/background/ghosts/displaced_things.hpp"
 #include "core/background/ghosts/ghosts.hpp"
 #include "core/background/ghosts/mask_contour.hpp"
+#include "core/background/ghosts/swaying_parts.hpp"
 #include "tests/kernels/masks.hpp"
 #include "tests/kernels/scenes.hpp"
 
@@ -182,6 +183,33 @@ void parity_growFaint() {
     grownPixels += countSet(scene.mask);
   });
   EXPECT_GT(grownPixels, 0u);
+}
+
+void parity_dropSwaying() {
+  uint32_t droppedPixels = 0, keptPixels = 0;
+  forScenes(3, [&](LearntScene scene) {
+    const Size size = scene.smooth.size();
+    for (int y = 0; y < size.height; ++y)
+      for (int x = 0; x < size.width; ++x)
+        scene.model.unrest.at(x, y) = static_cast<uint8_t>(7 * x + y);
+    for (const background::Tolerance tolerance : {background::Tolerance{0, 0}, {10, 20}})
+      for (const int share : {30, 60}) {
+        BitMask expected = scattered(size, share);
+        Bits there(expected), swaying(size);
+        DevicePlanes smooth(scene.smooth.planes, scene.smooth.channels);
+        DeviceModel model(scene.model);
+        DeviceComponents parts(size);
+        gpu::background::dropSwaying(smooth, model.view(), tolerance, {swaying, parts.view()},
+                                     there, nullptr);
+        background::SwayScratch scratch;
+        background::dropSwaying(scene.smooth, scene.model, tolerance, scratch, expected);
+        there.expect(expected, "without what sways");
+        droppedPixels += countSet(scattered(size, share)) - countSet(expected);
+        keptPixels += countSet(expected);
+      }
+  });
+  EXPECT_GT(droppedPixels, 0u);
+  EXPECT_GT(keptPixels, 0u);
 }
 
 void parity_trimBorder() {

@@ -45,11 +45,16 @@ void parity_sumShifted() {
   forScenes(2, [](const LearntScene& scene) {
     DevicePlanes smooth(scene.smooth.planes, scene.smooth.channels);
     DeviceModel model(scene.model);
-    const background::ShiftedSums expected = background::sumShifted(scene.smooth, scene.model);
-    background::ShiftedSums sums;
-    gpu::background::sumShifted(smooth, model.view(), &sums, nullptr);
-    for (int i = 0; i < background::ShiftedSums::kShifts; ++i)
-      ASSERT_EQ(sums.off[i], expected.off[i]) << i;
+    for (const Point wanted : {Point{}, Point{2, -9}, Point{-99, 99}}) {
+      const Point centre = background::centreWithin(wanted, scene.smooth.size());
+      const background::ShiftedSums expected =
+          background::sumShifted(scene.smooth, scene.model, centre);
+      background::ShiftedSums sums;
+      gpu::background::sumShifted(smooth, model.view(), centre, &sums, nullptr);
+      for (int i = 0; i < background::ShiftedSums::kShifts; ++i)
+        ASSERT_EQ(sums.off[i], expected.off[i]) << i;
+      ASSERT_EQ(sums.unmoved, expected.unmoved);
+    }
   });
 }
 

@@ -2,6 +2,8 @@
 // What bgremove makes of scenes that change as a whole, and of people who stop.
 #include "tests/core/staged_scene.hpp"
 
+#include <cmath>
+#include <string>
 #include <vector>
 
 namespace rg {
@@ -108,10 +110,41 @@ TEST_P(SceneChanges, AShakenCameraDoesNotFloodTheMask) {
   EXPECT_TRUE(GetParam().texture == Texture::Ramp || told == 1);
 }
 
+/// On a pole in the wind, from the first frame on: farther than is looked for at once.
+TEST(Sway, ACameraIsFollowedAsFarAsItGoes) {
+  for (const Texture texture : {Texture::Tiles, Texture::Stone})
+    for (const int noise : {1, 3, 7}) {
+      SCOPED_TRACE("texture " + std::to_string(static_cast<int>(texture)) + ", noise " +
+                   std::to_string(noise));
+      StagedScene scene({texture, noise, 5});
+      Point home;  // Of the model: where the camera was in one of the first frames.
+      int followed = 0;
+      constexpr int kFirst = 25, kFrames = 125;
+      for (int i = 0; i < kFrames; ++i) {
+        const double phase = .4 * i;
+        const Point push{static_cast<int>(std::lround(6 * std::sin(phase))),
+                         static_cast<int>(std::lround(2 * std::sin(.7 * phase)))};
+        const Take take{i < kFirst ? std::nullopt : std::optional{walkerAt(i % 60)}, 100, push};
+        const auto foreground = scene.show(take);
+        const Point shift = foreground->scene.shift;
+        if (i < kFirst) {
+          home = {push.x - shift.x, push.y - shift.y};
+          continue;
+        }
+        const auto marks = marksOf(*foreground, seenFrom(push, *take.walker));
+        EXPECT_LT(marks.falsePercent, 1) << "frame " << i;
+        EXPECT_GE(marks.foundPercent, 80) << "frame " << i;
+        EXPECT_FALSE(background::isAnotherView(foreground->scene.event));
+        followed += shift == Point{push.x - home.x, push.y - home.y};
+      }
+      EXPECT_GE(followed, 90);
+    }
+}
+
 TEST_P(SceneChanges, ACameraThatWasTurnedStartsAnew) {
   StagedScene scene(GetParam());
   scene.showFor(100, {});
-  const Point push{405, 303};
+  const Point push{410, 303};  // Half of a period of the stripes: none of their places is near.
   int told = 0;
   std::shared_ptr<const background::Foreground> last;
   for (int i = 0; i < 130; ++i) {
