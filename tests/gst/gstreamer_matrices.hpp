@@ -14,6 +14,7 @@
 #define GST_VIDEO_META_TRANSFORM_IS_MATRIX(type) \
   ((type) == gst_video_meta_transform_matrix_get_quark())
 
+// NOLINTNEXTLINE(readability-identifier-naming): as GStreamer calls it.
 inline GQuark gst_video_meta_transform_matrix_get_quark() {
   return g_quark_from_static_string("gst-video-matrix");
 }
