@@ -209,9 +209,12 @@ void ChainProgram::pushEvent() {
                              gst_event_new_stream_start(bytes_.flip() ? "one" : "another"));
       chain_.setCaps(caps_);
       break;
-    case 4:
-      gst_harness_push_event(harness, gst_event_new_gap(nextTime(), bytes_.take<uint64_t>()));
+    case 4: {
+      const GstClockTime time = nextTime(), duration = bytes_.take<uint64_t>();
+      if (GST_CLOCK_TIME_IS_VALID(time))
+        gst_harness_push_event(harness, gst_event_new_gap(time, duration));
       break;
+    }
     case 5:
       gst_harness_push_upstream_event(harness, gst_event_new_reconfigure());
       break;
