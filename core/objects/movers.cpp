@@ -24,7 +24,8 @@ void Movers::find(const motion::Motion& motion, const MoverRules& rules, const E
   past_.advance(motion.camera, rules.stepNs);
   const PastFrame* older = past_.nearest(rules.perPixelNs);
   const PastFrame* previous = past_.previous();
-  if (previous == nullptr || previous->picture->size() != motion.size) {
+  const std::shared_ptr<const Picture>& now = motion.graph->picture;
+  if (previous == nullptr || !now || previous->picture->size() != now->size()) {
     past_.clear();
     evidence_.carry(motion, {}, rules.stepNs, executor);
     return;
@@ -41,7 +42,7 @@ void Movers::find(const motion::Motion& motion, const MoverRules& rules, const E
 void Movers::remember(const motion::Motion& motion, const MoverRules& rules,
                       const Executor& executor) {
   evidence_.add(motion, own_, executor);
-  past_.add(motion.graph->picture, rules.perPixelNs);
+  if (motion.graph->picture) past_.add(motion.graph->picture, rules.perPixelNs);
 }
 
 }  // namespace rg::objects

@@ -26,7 +26,7 @@ make_chroot() {  # SUITE
   chroot=$(mktemp -d "$chroots/$1.XXXXXX")
   trap 'rm -rf --one-file-system "$chroot"' EXIT
   cp -a --reflink=auto "$base/." "$chroot"
-  mkdir -p "$chroot/root/.cache/ccache"
+  mkdir -p "$chroot/var/cache/ccache"
 }
 
 # Runs a command there. Its mounts and processes end with it; it is not the first of them, which
@@ -36,11 +36,11 @@ in_chroot() {
   unshare --mount --pid --fork bash -ec '
     mount -t proc proc "$1/proc"
     mount --bind "$2" "$1/var/cache/apt/archives"
-    mount --bind "$3" "$1/root/.cache/ccache"
+    mount --bind "$3" "$1/var/cache/ccache"
     where=$1
     shift 3
     env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin LC_ALL=C.UTF-8 \
-      DEBIAN_FRONTEND=noninteractive chroot "$where" "$@" || exit' \
+      DEBIAN_FRONTEND=noninteractive CCACHE_DIR=/var/cache/ccache chroot "$where" "$@" || exit' \
     bash "$chroot" "$archives" "$compiled" "$@"
 }
 

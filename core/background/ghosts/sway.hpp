@@ -21,8 +21,8 @@ inline constexpr int kRestless = 24;
   return least < 160 ? 1 : least / 80;
 }
 
-/// Whether the model has the pixel's colour at one of 24 places round it: two of every second
-/// sample within the radius. now(channel), sample(place, sample, channel): levels.
+/// Whether the model has the pixel's colour at its place or at one of 24 round it: two of every
+/// second sample within the radius. now(channel), sample(place, sample, channel): levels.
 template <class Now, class Sample>
 [[nodiscard]] constexpr bool isKnownNearby(Point p, Size size, int channels, int radius,
                                            const Now& now, const Sample& sample) {

@@ -69,17 +69,15 @@ CameraMotion followed(const CameraMotion& since, const CameraMotion& before) {
   if (!since.isSafe() || !before.isSafe()) return {};
   const Point origin = since.origin();
   // Between places as seen from the two origins.
-  const auto by = [&](int direction) {
-    return CameraMatrix{1, 0, 1.0 * direction * (before.origin().x - origin.x),
-                        0, 1, 1.0 * direction * (before.origin().y - origin.y),
-                        0, 0, 1};
-  };
-  const CameraMatrix all =
-      chained(chained(by(1), chained(numbersOf(before), by(-1))), numbersOf(since));
+  const double x = before.origin().x - origin.x, y = before.origin().y - origin.y;
+  const CameraMatrix there{1, 0, -x, 0, 1, -y, 0, 0, 1};
+  const CameraMatrix after = chained(chained(wayBack(there), numbersOf(before)), there);
+  const CameraMatrix all = chained(after, numbersOf(since));
   const CameraMotion result = motionOf(all, origin);
   if (result.isSafe()) return result;
   const Point step = since.at(origin.x, origin.y);
-  const Point rest = before.at(origin.x - step.x / 16, origin.y - step.y / 16);
+  constexpr int kUnit = 1 << CameraMotion::kMotionBits;
+  const Point rest = before.at(origin.x - step.x / kUnit, origin.y - step.y / kUnit);
   return CameraMotion(Point{step.x + rest.x, step.y + rest.y});
 }
 

@@ -30,12 +30,6 @@ struct ComparedFrame {
     constexpr int64_t kLeast = motion::kMotionUnit;
     return int64_t{beyond.x} * beyond.x + int64_t{beyond.y} * beyond.y > kLeast * kLeast;
   }
-  /// And by how much altogether.
-  [[nodiscard]] Point motionOf(const motion::Motion& motion, size_t region) const {
-    const Point beyond = beyondCamera(motion, region), by = at(camera, motion, region);
-    return {beyond.x + by.x, beyond.y + by.y};
-  }
-
   /// What moves so in a step does so since then.
   [[nodiscard]] Point sinceThen(Point ofStep) const {
     const auto scaled = [&](int64_t v) {
