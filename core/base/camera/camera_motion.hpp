@@ -14,6 +14,35 @@
 
 namespace rg {
 
+/// What a motion does to directions and lengths: (xx x + xy y, yx x + yy y), in 1/kOne.
+struct LinearMap {
+  static constexpr int64_t kOne = 1 << 16;
+  static constexpr int64_t kMost = 16 * kOne;  ///< Of a part, so that products fit.
+
+  int64_t xx = kOne, xy = 0, yx = 0, yy = kOne;
+
+  [[nodiscard]] constexpr Point of(Point p) const {
+    const auto along = [&](int64_t byX, int64_t byY) {
+      const int64_t value = divideRounded(byX * p.x + byY * p.y, kOne);
+      return static_cast<int>(std::clamp<int64_t>(value, INT32_MIN, INT32_MAX));
+    };
+    return {along(xx, xy), along(yx, yy)};
+  }
+  /// How much longer things become on average, in 1/kOne.
+  [[nodiscard]] constexpr int64_t scale() const {
+    return integerSqrt(static_cast<uint64_t>(std::max<int64_t>(xx * yy - xy * yx, 0)));
+  }
+  /// Itself where it turns the picture over or makes a point of it.
+  [[nodiscard]] constexpr LinearMap inverse() const {
+    const int64_t area = (xx * yy - xy * yx) / kOne;
+    if (area <= 0) return {};
+    const auto part = [&](int64_t value) {
+      return std::clamp(divideRounded(value * kOne, area), -kMost, kMost);
+    };
+    return {part(yy), part(-xy), part(-yx), part(xx)};
+  }
+};
+
 /// From a place in this frame to the one where the same was in the previous frame.
 class CameraMotion {
  public:
@@ -89,6 +118,22 @@ class CameraMotion {
     for (int step = 0; step < 2; ++step)
       by = at(px(int64_t{place.x} + by.x), px(int64_t{place.y} + by.y));
     return by;
+  }
+  /// How directions and lengths near pixel (x, y) have changed since the previous frame.
+  [[nodiscard]] constexpr LinearMap around(int x, int y) const {
+    const int64_t u = bounded(x) - origin_.x, v = bounded(y) - origin_.y;
+    const int64_t w = std::max(matrix_[6] * u + matrix_[7] * v + matrix_[8], kOne / 4);
+    const Point was = before(x, y);
+    const int64_t beforeX = divideRounded(was.x, 1 << kPlaceBits) - origin_.x;
+    const int64_t beforeY = divideRounded(was.y, 1 << kPlaceBits) - origin_.y;
+    // 2^32 + 2^15 · 2^30, times 2^16, fit.
+    const auto slope = [&](size_t at, size_t row, int64_t place) {
+      return std::clamp(divideRounded((matrix_[at] - place * matrix_[row]) * LinearMap::kOne, w),
+                        -LinearMap::kMost, LinearMap::kMost);
+    };
+    return LinearMap{slope(0, 6, beforeX), slope(1, 7, beforeX), slope(3, 6, beforeY),
+                     slope(4, 7, beforeY)}
+        .inverse();
   }
   friend constexpr bool operator==(const CameraMotion&, const CameraMotion&) = default;
 

@@ -19,7 +19,7 @@ constexpr int kFarReach = 8;    // Small pixels round a shift of the whole: zoom
 constexpr int kNearReach = 4;   // Round what was expected.
 constexpr int kRefinements = 3;
 // Small pixels by which motions may differ and count as alike.
-constexpr double kAlikeWhole = .75, kAlikeFine = .25;
+constexpr double kAlikeWhole = .75, kAlikeFine = .1;
 constexpr double kEnough = .6;  // Share of the votes that tells that no other motion is looked for.
 constexpr double kLeastNoise = 1.0;  // Variance of a difference, grey levels squared.
 
@@ -184,6 +184,17 @@ CameraFit CameraSearch::refine(const CameraModel& camera, const Executor& execut
   return fitCamera(samples_, {kAlikeFine / frame_.half, starts, false}, scratch_);
 }
 
+/// Refines a motion for as long as that changes it, at most kRefinements times.
+CameraFit CameraSearch::approach(const CameraModel& start, const Executor& executor) {
+  CameraModel seen = start;
+  CameraFit fit = refine(seen, executor);
+  for (int i = 1; i < kRefinements && fit.model != seen; ++i) {
+    seen = fit.model;
+    fit = refine(seen, executor);
+  }
+  return fit;
+}
+
 /// Of any motion. sums_ holds the blocks' gradients.
 CameraFit CameraSearch::search(const Executor& executor) {
   matches_.assign(static_cast<size_t>(grid_.count()), {});
@@ -211,16 +222,11 @@ CameraMotion CameraSearch::find(const std::shared_ptr<const Picture>& current,
   frame_ = CameraFrame::of(now_.small.size());
   grid_ = BlockGrid::of(now_.small.size());
   if (grid_.count() == 0) return {};
-  CameraModel seen = last_;  // That the residuals were measured with.
-  CameraFit fit = refine(seen, executor);
+  CameraFit fit = approach(last_, executor);
   if (fit.explained < kEnough) {
-    fit = search(executor);
-    seen = fit.model;
-    fit = refine(seen, executor);
-  }
-  for (int i = 1; i < kRefinements && fit.model != seen; ++i) {
-    seen = fit.model;
-    fit = refine(seen, executor);
+    measure(motionOf(last_, frame_), executor);
+    const CameraFit other = approach(search(executor).model, executor);
+    if (other.explained > fit.explained) fit = other;
   }
   const CameraModel& model = fit.model;
   last_ = model;

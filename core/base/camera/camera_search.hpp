@@ -6,7 +6,8 @@
 // far off that is (Gauss and Newton's way), block by block, and camera_fit makes a motion of it;
 // the first is that of the frame before. Where it explains too few, each block is looked for where
 // the camera was heading, then where the picture as a whole has gone (tried on still smaller
-// pictures).
+// pictures), and of the motion from there and that of the frame before, both made as fine as
+// possible, the one counts that explains more.
 //
 // Determinism: integers on pixels; camera_fit tells of the rest.
 #pragma once
@@ -44,6 +45,7 @@ class CameraSearch {
   void listMatches();
   [[nodiscard]] CameraFit fitMatches(const CameraModel& expected);
   [[nodiscard]] CameraFit refine(const CameraModel& camera, const Executor& executor);
+  [[nodiscard]] CameraFit approach(const CameraModel& start, const Executor& executor);
   [[nodiscard]] CameraFit search(const Executor& executor);
   void listResiduals(const CameraModel& camera);
   [[nodiscard]] double noise();

@@ -43,6 +43,43 @@ TEST(CameraMotion, TellsHowFarAPlaceHasMovedSinceThePreviousFrame) {
   static_assert(kShift.since({99, 5}) == Point{-37, 21});
 }
 
+TEST(CameraMotion, TellsHowDirectionsAndLengthsHaveChanged) {
+  const auto part = [](double v) { return static_cast<int64_t>(std::llround(v * kOne)); };
+  // Zooms in, turns, slants.
+  const CameraMotion camera({part(.95), part(.05), part(7), part(-.05), part(.96), part(-3),
+                             part(2e-4), part(-1e-4), part(1)},
+                            {320, 180});
+  for (const Point place : {Point{10, 20}, Point{320, 180}, Point{600, 340}}) {
+    const LinearMap change = camera.around(place.x, place.y);
+    constexpr int kLength = 16;
+    const auto differenceOf = [](Point a, Point b) { return Point{a.x - b.x, a.y - b.y}; };
+    const Point alongX = differenceOf(camera.before(place.x + kLength / 2, place.y),
+                                      camera.before(place.x - kLength / 2, place.y));
+    const Point alongY = differenceOf(camera.before(place.x, place.y + kLength / 2),
+                                      camera.before(place.x, place.y - kLength / 2));
+    // What was so long and so directed is kLength pixels along an axis now, but for the slant.
+    constexpr int kNow = kLength * 256;
+    EXPECT_NEAR(change.of(alongX).x, kNow, 8);
+    EXPECT_NEAR(change.of(alongX).y, 0, 8);
+    EXPECT_NEAR(change.of(alongY).x, 0, 8);
+    EXPECT_NEAR(change.of(alongY).y, kNow, 8);
+  }
+  const double area = .95 * .96 + .05 * .05;
+  EXPECT_NEAR(double(camera.around(320, 180).scale()), LinearMap::kOne / std::sqrt(area), 100);
+  constexpr LinearMap kNone = CameraMotion(Point{-37, 21}).around(17, 5);
+  static_assert(kNone.of({-9, 1 << 30}) == Point{-9, 1 << 30} && kNone.scale() == LinearMap::kOne);
+}
+
+TEST(CameraMotion, WhatMakesALineOfThePictureChangesNoLengths) {
+  const CameraMotion flat({0, 0, 0, 0, 0, 0, 0, 0, CameraMotion::kOne}, {0, 0});
+  EXPECT_EQ(flat.around(3, 4).scale(), LinearMap::kOne);
+  constexpr int64_t kFar = int64_t{1} << 32;
+  const CameraMotion wild({kFar, -kFar, 0, kFar, kFar, 0, 1 << 30, 1 << 30, 1 << 30}, {0, 0});
+  const LinearMap change = wild.around(1 << 20, -(1 << 20));
+  EXPECT_GE(change.scale(), 0);
+  EXPECT_LE(std::abs(change.of({INT32_MAX, INT32_MIN}).x), int64_t{INT32_MAX} + 1);
+}
+
 /// Pixel by pixel, each place exact.
 TEST(CameraWarp, IsTheFrameWhereTheCameraSaysForAnyNumberOfThreads) {
   constexpr Size kSmall{157, 90};
