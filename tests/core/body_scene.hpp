@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -63,7 +64,7 @@ class BodyScene {
     motion->regions = seen;
     // The first body is the ground, where all of the frame has regions.
     if (scope_ == segmentation::Scope::Frame && !motions.empty())
-      motion->camera = CameraMotion(Point{motions[0].dx, motions[0].dy});
+      motion->camera = camera.value_or(CameraMotion(Point{motions[0].dx, motions[0].dy}));
     return process(motion);
   }
   std::shared_ptr<const objects::Objects> skip() {
@@ -74,7 +75,9 @@ class BodyScene {
   objects::Stage& stage() { return *stage_; }
   void wait(int64_t ns) { time_.ns += ns; }
   void forgetTime() { time_.isKnown = false; }
-  objects::Params params;  ///< Of the frames to come.
+  // Of the frames to come:
+  objects::Params params;
+  std::optional<CameraMotion> camera;  ///< None: as the ground's region moves.
 
  private:
   static void paint(const Body& body, uint16_t label, Image<uint16_t>& ids,

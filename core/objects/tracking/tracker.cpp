@@ -21,10 +21,6 @@ constexpr int64_t kCentreSamples = 31;
 constexpr int64_t kTurn = 3 * kUnit;  // So far off a sharp portrait, it turned round.
 constexpr uint16_t kRigidSway = 20;   // People's strides are beyond this.
 
-int32_t toInt(int64_t value) {
-  return static_cast<int32_t>(std::clamp<int64_t>(value, INT32_MIN / 4, INT32_MAX / 4));
-}
-
 /// Gains in 1/16 of how far a sighting moves position and speed.
 struct Gains {
   int position, speed;
@@ -111,19 +107,6 @@ Point Tracker::expectedShift(const Track& track, const CameraMotion& camera, int
   return {px(int64_t{step.x} + by.x), px(int64_t{step.y} + by.y)};
 }
 
-/// All of a track's places are places in the picture, which moves over the ground.
-void Tracker::moveWithCamera(Track& track, const CameraMotion& camera) {
-  const std::pair<int32_t*, int32_t*> places[] = {{&track.x, &track.foot},
-                                                  {&track.stillX, &track.stillFoot},
-                                                  {&track.originX, &track.originFoot},
-                                                  {&track.learntX, &track.learntFoot}};
-  for (const auto& [x, y] : places) {
-    const Point by = camera.since({*x, *y});
-    *x = toInt(int64_t{*x} + by.x);
-    *y = toInt(int64_t{*y} + by.y);
-  }
-}
-
 void Tracker::advance(Track& track, int64_t stepNs) const {
   const Extent before = scale_.at(track.foot / kUnit);
   const Point step = stepOf(track, stepNs);
@@ -151,7 +134,7 @@ void Tracker::predict(int64_t stepNs, const TrackerParams& params) {
 void Tracker::update(const GroupGrid& evidence, std::span<const Group> groups, int64_t stepNs,
                      const TrackerParams& params) {
   events_.clear();
-  if (frame_ != evidence.frame) {
+  if (frame_ != evidence.frame || showsMovers_ != evidence.showsMovers) {
     frame_ = evidence.frame;
     scale_.reset(frame_);
   }

@@ -19,12 +19,18 @@
 #include "core/objects/tracking/pieces.hpp"
 #include "core/objects/tracking/scene_scale.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
 
 namespace rg::objects {
+
+/// What positions and lengths are kept within, so that a few can be added.
+constexpr int32_t toInt(int64_t value) {
+  return static_cast<int32_t>(std::clamp<int64_t>(value, INT32_MIN / 4, INT32_MAX / 4));
+}
 
 /// An edge of a track's box that stays where it is, and where the opposite one was at first, in px.
 struct StandingEdge {

@@ -36,6 +36,35 @@ int closedIn(StandingEdge& edge, int place, int opposite) {
 
 }  // namespace
 
+/// All of a track's places, speeds and lengths are those in the picture, which moves over the
+/// ground, turns and zooms.
+void Tracker::moveWithCamera(Track& track, const CameraMotion& camera) {
+  const LinearMap change =
+      camera.around(track.x / kUnit, (track.foot - track.size.height / 2) / kUnit);
+  const std::pair<int32_t*, int32_t*> places[] = {{&track.x, &track.foot},
+                                                  {&track.stillX, &track.stillFoot},
+                                                  {&track.originX, &track.originFoot},
+                                                  {&track.learntX, &track.learntFoot}};
+  for (const auto& [x, y] : places) {
+    const Point by = camera.since({*x, *y});
+    *x = toInt(int64_t{*x} + by.x);
+    *y = toInt(int64_t{*y} + by.y);
+  }
+  const std::pair<int32_t*, int32_t*> directions[] = {{&track.speedX, &track.speedY},
+                                                      {&track.steadyX, &track.steadyY},
+                                                      {&track.heldX, &track.heldFoot},
+                                                      {&track.centreX, &track.centreY}};
+  for (const auto& [x, y] : directions) {
+    const Point now = change.of({*x, *y});
+    *x = now.x;
+    *y = now.y;
+  }
+  const int64_t scale = change.scale();
+  int32_t* const lengths[] = {&track.size.width, &track.size.height, &track.stillSize.width,
+                              &track.stillSize.height, &track.entryHeight};
+  for (int32_t* length : lengths) *length = toInt(divideRounded(*length * scale, LinearMap::kOne));
+}
+
 /// Whether one end of what is seen stands while the other comes nearer: something stands before it.
 bool Tracker::goesBehind(Track& track, const Box& box) {
   const int fromLeft = closedIn(track.rightEdge, box.right(), box.x);
@@ -121,8 +150,10 @@ void Tracker::learnSize(size_t index, int64_t stepNs, const GroupGrid& e) {
 
 /// Every half height of a track's way the scene learns from the blob that the track is in, whatever
 /// tracks say of sizes: a wrong scale must not confirm itself. Blobs of several things side by side
-/// don't count; tracks above each other may be one thing that was taken apart.
+/// don't count; tracks above each other may be one thing that was taken apart. A row of the picture
+/// says nothing of sizes where the camera moves.
 void Tracker::learnScale(const GroupGrid& e) {
+  if (e.showsMovers) return;
   for (size_t i = 0; i < sightings_.size(); ++i) {
     Track& track = tracks_[i];
     const int64_t dx = track.x - track.learntX, dy = track.foot - track.learntFoot;
