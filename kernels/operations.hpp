@@ -85,6 +85,10 @@
   X(findStill, rg::motion::isUnchanged, rg::gpu::motion::findStill)                         \
   X(sumGradients, rg::motion::sumGradients, rg::gpu::motion::sumGradients)                  \
   X(estimateMotion, rg::motion::estimateMotion, rg::gpu::motion::estimateMotion)            \
+  X(compareRegions, rg::objects::compareRegions, rg::gpu::objects::compareRegions)          \
+  X(carryEvidence, rg::objects::carryEvidence, rg::gpu::objects::carryEvidence)             \
+  X(addEvidence, rg::objects::addEvidence, rg::gpu::objects::addEvidence)                   \
+  X(findObjectPixels, rg::objects::findObjectPixels, rg::gpu::objects::findObjectPixels)    \
   X(sumIntegrals, rg::detection::sumIntegrals, rg::gpu::detection::sumIntegrals)            \
   X(locateWindows, rg::detection::placeOf, rg::gpu::detection::locateWindows)               \
   X(judgeWindows, rg::detection::judgeWindows, rg::gpu::detection::judgeWindows)

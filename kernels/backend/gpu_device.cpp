@@ -4,6 +4,7 @@
 #include "kernels/backend/background_operations.hpp"
 #include "kernels/backend/graph_operations.hpp"
 #include "kernels/backend/motion_operations.hpp"
+#include "kernels/backend/object_operations.hpp"
 #include "kernels/backend/segmentation_operations.hpp"
 #include "kernels/runtime.hpp"
 
@@ -90,6 +91,10 @@ std::unique_ptr<rg::graph::Operations> GpuDevice::graphOperations(const Executor
 
 std::unique_ptr<rg::motion::Operations> GpuDevice::motionOperations(const Executor& executor) {
   return motion::makeOperations(*this, executor);
+}
+
+std::unique_ptr<rg::objects::Operations> GpuDevice::objectOperations(const Executor& executor) {
+  return objects::makeOperations(*this, executor);
 }
 
 Result<std::shared_ptr<Device>> openDevice(int device, const std::shared_ptr<Device>& neighbour) {

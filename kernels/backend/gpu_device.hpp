@@ -7,6 +7,7 @@
 #include "core/base/memory/device.hpp"
 #include "core/graph/operations.hpp"
 #include "core/motion/operations.hpp"
+#include "core/objects/operations.hpp"
 #include "core/segmentation/operations.hpp"
 #include "kernels/backend/open_device.hpp"
 #include "kernels/launch.hpp"
@@ -71,7 +72,8 @@ class GpuDevice final : public Device,
                         public rg::background::OperationsSource,
                         public rg::segmentation::OperationsSource,
                         public rg::graph::OperationsSource,
-                        public rg::motion::OperationsSource {
+                        public rg::motion::OperationsSource,
+                        public rg::objects::OperationsSource {
  public:
   GpuDevice(std::string name, std::shared_ptr<Lane> lane)
       : name_(std::move(name)), lane_(std::move(lane)), scratch_(lane_) {}
@@ -86,6 +88,8 @@ class GpuDevice final : public Device,
   [[nodiscard]] std::unique_ptr<rg::graph::Operations> graphOperations(
       const Executor& executor) override;
   [[nodiscard]] std::unique_ptr<rg::motion::Operations> motionOperations(
+      const Executor& executor) override;
+  [[nodiscard]] std::unique_ptr<rg::objects::Operations> objectOperations(
       const Executor& executor) override;
 
   [[nodiscard]] const std::shared_ptr<Lane>& lane() const { return lane_; }
