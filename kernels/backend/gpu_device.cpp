@@ -24,11 +24,11 @@ class GpuMemory final : public DeviceMemory {
   [[nodiscard]] void* data() const override { return memory_; }
   void upload(const void* from, size_t bytes) override {
     lane_->enter();
-    runtime::upload(memory_, from, bytes, lane_->stream());
+    lane_->staging().upload(memory_, from, bytes);
   }
   void download(void* to, size_t bytes) override {
     lane_->enter();
-    runtime::download(to, memory_, bytes, lane_->stream());
+    lane_->staging().download(to, memory_, bytes);
   }
 
  private:
@@ -43,13 +43,16 @@ class GpuMemory final : public DeviceMemory {
 Lane::Lane(int device) : device_(device) {
   enter();
   stream_ = runtime::makeStream();
+  staging_ = std::make_unique<Staging>(stream_);
 }
 
 Lane::~Lane() {
+  staging_.reset();
   runtime::endStream(stream_);
 }
 
 void Lane::enter() const {
+  if (staging_) staging_->expectAlive();
   runtime::choose(device_);
 }
 

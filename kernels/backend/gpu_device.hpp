@@ -10,6 +10,7 @@
 #include "core/objects/operations.hpp"
 #include "core/segmentation/operations.hpp"
 #include "kernels/backend/open_device.hpp"
+#include "kernels/backend/staging.hpp"
 #include "kernels/launch.hpp"
 
 #include <cstddef>
@@ -31,11 +32,15 @@ class Lane {
   Lane& operator=(const Lane&) = delete;
   [[nodiscard]] Stream stream() const { return stream_; }
   /// CUDA's calls go to the device that the calling thread has chosen last.
+  /// Throws DeviceError, also where the device hangs.
   void enter() const;
+  /// Copies; after enter().
+  [[nodiscard]] Staging& staging() { return *staging_; }
 
  private:
   int device_;
   Stream stream_;
+  std::unique_ptr<Staging> staging_;
 };
 
 /// Memory for the scratch of one operation at a time; what follows in the stream comes later and

@@ -110,19 +110,19 @@ constexpr size_t kFaulty = 4, kAfter = 2;
 
 /// Fails calls of a frame, and compares it and those behind it. Each run takes others: the frames
 /// before it take long.
-void failCalls(DeviceError::Kind kind, std::vector<std::shared_ptr<const Motion>> moved) {
+void failCalls(Failure how, std::vector<std::shared_ptr<const Motion>> moved) {
   moved.resize(kFaulty + 1 + kAfter);
   const auto expected = track(moved, nullptr);
   ASSERT_FALSE(expected[kFaulty]->objects.empty());
   std::mt19937 random(std::random_device{}());
   uint64_t call = 0;
   for (bool hasFailed = true; hasFailed && !::testing::Test::HasFailure();
-       call += 1 + random() % 3) {
+       call += 1 + random() % 6) {
     SCOPED_TRACE("call " + std::to_string(call));
     const auto device = openTested();
     const auto stage = stageOn(objects::makeStage, device);
     for (size_t i = 0; i < moved.size(); ++i) {
-      if (i == kFaulty) failCall(call, kind);
+      if (i == kFaulty) failCall(call, how);
       const auto found = *stage->process(moved[i], {}, timeOf(i));
       if (i < kFaulty) continue;
       ASSERT_NO_FATAL_FAILURE(expectSame(*found, *expected[i])) << "frame " << i;
@@ -136,8 +136,7 @@ TEST(ObjectBackend, NeitherAFailedCallNorALostDeviceChangesAnything) {
   if (!isHost()) GTEST_SKIP() << "a GPU does not fail when asked";
   for (const auto scope : {segmentation::Scope::Frame, segmentation::Scope::Foreground}) {
     const auto moved = walk(scope, false);
-    for (const auto kind : {DeviceError::Kind::Failed, DeviceError::Kind::Lost})
-      failCalls(kind, moved);
+    for (const auto how : {Failure::Call, Failure::Loss, Failure::Hang}) failCalls(how, moved);
   }
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Elements with a GPU that is the host (kernels/shim): what an application sees of it.
+#include "kernels/backend/staging.hpp"
 #include "kernels/shim/block.hpp"
 #include "kernels/shim/faults.hpp"
 #include "tests/support/busy_scene.hpp"
@@ -122,9 +123,10 @@ TEST_F(ElementBackend, AFailureIsToldOnceAndCostsNothing) {
   EXPECT_EQ(fallen.size(), std::size(kOnDevice));
 }
 
-TEST_F(ElementBackend, ALostDeviceIsASceneEventAndNoLostFrame) {
+/// Each element tells of it, and bgremove of the model, which was on the device only.
+void expectLoss(const Fault& fault) {
   Chain gpu(stagesWith("cuda"), kCaps);
-  (void)tellAll(gpu, Fault{12, DeviceError::Kind::Lost});
+  (void)tellAll(gpu, fault);
   EXPECT_EQ(activeBackend(gpu), "cpu");
   constexpr auto kWanted = static_cast<GstMessageType>(GST_MESSAGE_WARNING | GST_MESSAGE_ELEMENT);
   int warnings = 0, losses = 0;
@@ -134,6 +136,17 @@ TEST_F(ElementBackend, ALostDeviceIsASceneEventAndNoLostFrame) {
   }
   EXPECT_EQ(warnings, static_cast<int>(std::size(kOnDevice)));
   EXPECT_EQ(losses, 1);
+}
+
+TEST_F(ElementBackend, ALostDeviceIsASceneEventAndNoLostFrame) {
+  expectLoss({12, DeviceError::Kind::Lost});
+}
+
+TEST_F(ElementBackend, ADeviceThatHangsIsALostOne) {
+  const int64_t begin = gpu::runtime::clockNs();
+  expectLoss({12, {}, true});
+  // One of the elements has waited, the others know.
+  EXPECT_LT(gpu::runtime::clockNs() - begin, 2 * gpu::kHangNs);
 }
 
 /// Whatever is in view: the device's memory is of the size before.
