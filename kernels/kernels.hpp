@@ -16,6 +16,7 @@
 #include "kernels/consensus_background.hpp"
 #include "kernels/displaced_things.hpp"
 #include "kernels/exposure.hpp"
+#include "kernels/fit_moments.hpp"
 #include "kernels/gaussian_background.hpp"
 #include "kernels/ghosts.hpp"
 #include "kernels/haar_cascade.hpp"

@@ -80,6 +80,8 @@
   X(refineBorders, rg::segmentation::BorderPixels, rg::gpu::segmentation::refineBorders)    \
   X(buildGraph, rg::graph::makeStage, rg::gpu::graph::buildGraph)                           \
   X(padLuma, rg::motion::PaddedLuma, rg::gpu::motion::padLuma)                              \
+  X(padSmooth, rg::motion::PaddedLuma, rg::gpu::motion::padSmooth)                          \
+  X(sumMoments, rg::motion::sumMoments, rg::gpu::motion::sumMoments)                        \
   X(sumBoxes, rg::motion::BoxSums, rg::gpu::motion::sumBoxes)                               \
   X(searchShifts, rg::motion::searchShifts, rg::gpu::motion::searchShifts)                  \
   X(findStill, rg::motion::isUnchanged, rg::gpu::motion::findStill)                         \

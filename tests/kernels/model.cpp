@@ -174,6 +174,10 @@ void launchSearch(const Memory& m, const Search& search) {
   gpu::motion::searchShifts(regions, {m.planes.planes[0], luma, boxes}, range,
                             {nullptr, nullptr, search.regions}, nullptr, nullptr);
   gpu::motion::estimateMotion(regions, nullptr, nullptr, nullptr, nullptr);
+  gpu::motion::padSmooth(m.planes.planes[0], luma, nullptr);
+  constexpr int kFits = 9;  // Two trials on two planes, two steps from there, three from the prior.
+  for (int i = 0; i < kFits; ++i)
+    gpu::motion::sumMoments(regions, nullptr, m.planes.planes[0], luma, nullptr, nullptr);
 }
 
 /// Before a moving camera: two rounds with the frame before and with an older one, of which the
