@@ -50,7 +50,7 @@ Take takeAt(int frame) {
   return take;
 }
 
-TEST(Backend, BackgroundIsTheSameOnADevice) {
+TEST(BackgroundBackend, BackgroundIsTheSameOnADevice) {
   const auto device = openTested();
   StagedScene cpu({}, kQuick), gpu({}, kQuick, device);
   std::vector<SceneEvent> seen;
@@ -99,7 +99,7 @@ void failCalls(int frame, Failure how,
   EXPECT_EQ(countAllocations(), before);
 }
 
-TEST(Backend, AFailedCallChangesNoFrame) {
+TEST(BackgroundBackend, AFailedCallChangesNoFrame) {
   if (!isHost()) GTEST_SKIP() << "a GPU does not fail when asked";
   StagedScene cpu({}, kQuick);
   std::vector<std::shared_ptr<const Foreground>> expected;
@@ -108,7 +108,7 @@ TEST(Backend, AFailedCallChangesNoFrame) {
 }
 
 /// The frame is the first of a model that starts with it, and says so.
-TEST(Backend, ALostDeviceOrOneThatHangsCostsTheModelOnly) {
+TEST(BackgroundBackend, ALostDeviceOrOneThatHangsCostsTheModelOnly) {
   if (!isHost()) GTEST_SKIP() << "a GPU does not fail when asked";
   StagedScene cpu({}, kQuick);
   std::vector<std::shared_ptr<const Foreground>> expected;
