@@ -17,15 +17,27 @@ int fade(int unit, int64_t ns) {
   return static_cast<int>(unit * kHalfNs / (kHalfNs + std::min(ns, 1000 * kHalfNs)));
 }
 
-/// What the sample at p takes over.
-int16_t carriedTo(Point p, const motion::RegionMotion& m, const KnownEvidence& known) {
-  const Point from = cameFrom(p, m);
-  if (!boundsOf(known.motion.size).contains(from)) return 0;
-  const ImageView<const uint8_t> now = known.motion.graph->picture->luma();
-  if (!showsTheSame(now.at(p.x, p.y), known.previous.luma().at(from.x, from.y))) return 0;
-  const Point sample = sampleAt(from, known.gains.size());
-  return fadedGain(known.gains.at(sample.x, sample.y), known.left);
-}
+/// What is asked of each sample, found once.
+struct KnownPixels {
+  ImageView<const uint8_t> now, before;
+  ImageView<const int16_t> gains;
+  int left;
+
+  explicit KnownPixels(const KnownEvidence& known)
+      : now(known.motion.graph->picture->luma()),
+        before(known.previous.luma()),
+        gains(known.gains),
+        left(known.left) {}
+
+  /// What the sample at p takes over.
+  [[nodiscard]] int16_t carriedTo(Point p, const motion::RegionMotion& m) const {
+    const Point from = cameFrom(p, m);
+    if (!boundsOf(now.size).contains(from)) return 0;
+    if (!showsTheSame(now.at(p.x, p.y), before.at(from.x, from.y))) return 0;
+    const Point sample = sampleAt(from, gains.size);
+    return fadedGain(gains.at(sample.x, sample.y), left);
+  }
+};
 
 }  // namespace
 
@@ -34,6 +46,7 @@ void carryEvidence(const KnownEvidence& known, const Executor& executor,
   const segmentation::Labels& labels = *known.motion.graph->labels;
   const Size grid = carried.gains.size();
   const ImageView<int16_t> gains = carried.gains;
+  const KnownPixels pixels(known);
   executor.forRows(grid.height, [&](int begin, int end) {
     for (int v = begin; v < end; ++v) {
       const int y = v * kEvidenceStep;
@@ -42,7 +55,7 @@ void carryEvidence(const KnownEvidence& known, const Executor& executor,
         const int x = u * kEvidenceStep;
         const auto label = segmentation::RegionLabel::ofNumber(ids[x]);
         gains.at(u, v) =
-            label ? carriedTo({x, y}, known.motion.regions[label.index()], known) : int16_t{0};
+            label ? pixels.carriedTo({x, y}, known.motion.regions[label.index()]) : int16_t{0};
       }
     }
   });
