@@ -67,7 +67,7 @@ GType methodType() {
   return type;
 }
 
-struct Settings : StageSettings, objects::Params, OriginSettings {
+struct Settings : StageSettings, objects::Params, OriginSettings, BackendSettings {
   double latencyS = 0.0;
 };
 
@@ -118,6 +118,9 @@ constexpr std::array kProperties{
     sourceProperty<Settings>(),
     tagsProperty<Settings>(),
     threadsProperty<Settings>(),
+    backendProperty<Settings>(),
+    deviceIdProperty<Settings>(),
+    activeBackendProperty<Settings>(),
     statsProperty<Settings>(),
 };
 

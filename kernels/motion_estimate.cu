@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "kernels/block_reduce.hpp"
+#include "kernels/matched_blocks.hpp"
 #include "kernels/motion_estimate.hpp"
 #include "kernels/start.hpp"
 #include "kernels/threads.hpp"
@@ -9,29 +9,7 @@ namespace {
 
 using rg::motion::GradientProducts;
 using rg::motion::kBlockWidth;
-using rg::motion::kPartHeight;
-using rg::motion::MatchedPart;
 using rg::motion::RegionMotion;
-
-struct Total {
-  template <class T>
-  __device__ T operator()(T a, T b) const {
-    return a + b;
-  }
-};
-
-/// Calls visit(x, y) for the first pixel of a thread's share of the blocks of the region that its
-/// block of threads has.
-template <class Visit>
-__device__ void forOwnBlocks(const MatchedRegions& regions, const Visit& visit) {
-  constexpr uint32_t kBlocks = 2 * kPartHeight;
-  const uint32_t first = regions.starts[blockIdx.x], last = regions.starts[blockIdx.x + 1];
-  for (uint32_t i = threadIdx.x; i < (last - first) * kBlocks; i += kReduceThreads) {
-    const MatchedPart& part = regions.parts[first + i / kBlocks];
-    const auto bit = static_cast<int>(i % kBlocks);
-    if ((part.blocks >> bit & 1) != 0) visit(part.x() + bit % 2 * kBlockWidth, part.y() + bit / 2);
-  }
-}
 
 __global__ void compareRegions(const __grid_constant__ MatchedRegions regions,
                                ImageView<const uint8_t> luma, ImageView<const uint8_t> previous,
@@ -79,15 +57,6 @@ __global__ void estimateRegions(const __grid_constant__ MatchedRegions regions,
   motion[region] =
       pixels == 0 ? RegionMotion{}
                   : rg::motion::estimateMotion(found[region], {sums.xx, sums.xy, sums.yy, pixels});
-}
-
-/// A block for each region, of which no more pixels are matched than are enough.
-Launch overRegions(const char* name, int count, double bytes, double operations) {
-  const double pixels = static_cast<double>(count) * rg::motion::kEnoughPx;
-  return {name,
-          {static_cast<unsigned>(count), 1, 1},
-          {kReduceThreads, 1, 1},
-          {bytes * pixels, operations * pixels}};
 }
 
 }  // namespace

@@ -80,11 +80,17 @@
   X(refineBorders, rg::segmentation::BorderPixels, rg::gpu::segmentation::refineBorders)    \
   X(buildGraph, rg::graph::makeStage, rg::gpu::graph::buildGraph)                           \
   X(padLuma, rg::motion::PaddedLuma, rg::gpu::motion::padLuma)                              \
+  X(padSmooth, rg::motion::PaddedLuma, rg::gpu::motion::padSmooth)                          \
+  X(sumMoments, rg::motion::sumMoments, rg::gpu::motion::sumMoments)                        \
   X(sumBoxes, rg::motion::BoxSums, rg::gpu::motion::sumBoxes)                               \
   X(searchShifts, rg::motion::searchShifts, rg::gpu::motion::searchShifts)                  \
   X(findStill, rg::motion::isUnchanged, rg::gpu::motion::findStill)                         \
   X(sumGradients, rg::motion::sumGradients, rg::gpu::motion::sumGradients)                  \
   X(estimateMotion, rg::motion::estimateMotion, rg::gpu::motion::estimateMotion)            \
+  X(compareRegions, rg::objects::compareRegions, rg::gpu::objects::compareRegions)          \
+  X(carryEvidence, rg::objects::carryEvidence, rg::gpu::objects::carryEvidence)             \
+  X(addEvidence, rg::objects::addEvidence, rg::gpu::objects::addEvidence)                   \
+  X(findObjectPixels, rg::objects::findObjectPixels, rg::gpu::objects::findObjectPixels)    \
   X(sumIntegrals, rg::detection::sumIntegrals, rg::gpu::detection::sumIntegrals)            \
   X(locateWindows, rg::detection::placeOf, rg::gpu::detection::locateWindows)               \
   X(judgeWindows, rg::detection::judgeWindows, rg::gpu::detection::judgeWindows)

@@ -4,6 +4,7 @@
 #include "kernels/region_graph.hpp"
 #include "kernels/start.hpp"
 #include "kernels/threads.hpp"
+#include "kernels/warp_runs.hpp"
 
 namespace rg::gpu::graph {
 namespace {
@@ -25,10 +26,6 @@ __global__ void clearGraph(const __grid_constant__ LabelledPicture labelled,
     graph.contrasts[i] = 0;
   }
   if (first == 0) *graph.arcCount = 0;
-}
-
-__device__ void addSum(uint64_t& to, uint64_t value) {
-  atomicAdd(reinterpret_cast<unsigned long long*>(&to), static_cast<unsigned long long>(value));
 }
 
 /// runs are not counted.

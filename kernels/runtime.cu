@@ -2,6 +2,9 @@
 #include "kernels/runtime.hpp"
 #include "kernels/start.hpp"
 
+#include <chrono>
+#include <thread>
+
 namespace rg::gpu::runtime {
 
 int countDevices() noexcept {
@@ -58,17 +61,60 @@ void clear(void* memory, size_t bytes, Stream stream) {
   gpu::clear(memory, bytes, stream);
 }
 
+void copy(void* to, const void* from, size_t bytes, Stream stream) {
+  check(cudaMemcpyAsync(to, from, bytes, cudaMemcpyDeviceToDevice, stream), "copy");
+}
+
+void* allocateOnHost(size_t bytes) {
+  void* memory = nullptr;
+  check(cudaMallocHost(&memory, bytes), "cudaMallocHost");
+  return memory;
+}
+
+void releaseOnHost(void* memory) noexcept {
+  (void)cudaFreeHost(memory);
+}
+
 void upload(void* to, const void* from, size_t bytes, Stream stream) {
   check(cudaMemcpyAsync(to, from, bytes, cudaMemcpyHostToDevice, stream), "upload");
 }
 
 void download(void* to, const void* from, size_t bytes, Stream stream) {
   check(cudaMemcpyAsync(to, from, bytes, cudaMemcpyDeviceToHost, stream), "download");
-  check(cudaStreamSynchronize(stream), "download");
 }
 
-void copy(void* to, const void* from, size_t bytes, Stream stream) {
-  check(cudaMemcpyAsync(to, from, bytes, cudaMemcpyDeviceToDevice, stream), "copy");
+Event makeEvent() {
+  Event event = nullptr;
+  check(cudaEventCreateWithFlags(&event, cudaEventDisableTiming), "cudaEventCreateWithFlags");
+  return event;
+}
+
+void endEvent(Event event) noexcept {
+  (void)cudaEventDestroy(event);
+}
+
+void record(Event event, Stream stream) {
+  check(cudaEventRecord(event, stream), "cudaEventRecord");
+}
+
+bool isDone(Event event) {
+  const cudaError_t code = cudaEventQuery(event);
+  if (code != cudaErrorNotReady) check(code, "cudaEventQuery");
+  return code == cudaSuccess;
+}
+
+int64_t clockNs() noexcept {
+  const auto now = std::chrono::steady_clock::now().time_since_epoch();
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
+}
+
+/// What a frame waits for comes in less than the first of these.
+void rest(int64_t waitedNs) noexcept {
+  constexpr int64_t kShortNs = 500'000;
+  if (waitedNs < kShortNs)
+    std::this_thread::yield();
+  else
+    std::this_thread::sleep_for(std::chrono::microseconds(50));
 }
 
 }  // namespace rg::gpu::runtime

@@ -8,7 +8,14 @@
 #include "kernels/launch.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
+
+struct CUevent_st;
+
+namespace rg::gpu {
+using Event = CUevent_st*;
+}
 
 namespace rg::gpu::runtime {
 
@@ -28,10 +35,25 @@ void endStream(Stream stream) noexcept;
 void release(void* memory, Stream stream) noexcept;
 
 void clear(void* memory, size_t bytes, Stream stream);
-/// `from` may change as soon as it returns.
-void upload(void* to, const void* from, size_t bytes, Stream stream);
-/// Waits for what the stream was given before.
-void download(void* to, const void* from, size_t bytes, Stream stream);
 void copy(void* to, const void* from, size_t bytes, Stream stream);
+
+/// Memory of the host that copies don't wait for.
+[[nodiscard]] void* allocateOnHost(size_t bytes);
+void releaseOnHost(void* memory) noexcept;
+/// The host's memory is of allocateOnHost(), and in use until the stream has come so far. Nothing
+/// waits.
+void upload(void* to, const void* from, size_t bytes, Stream stream);
+void download(void* to, const void* from, size_t bytes, Stream stream);
+
+[[nodiscard]] Event makeEvent();
+void endEvent(Event event) noexcept;
+/// It comes when the stream has done what it was given before.
+void record(Event event, Stream stream);
+/// Whether it has come. Throws what the stream's work has failed with, too.
+[[nodiscard]] bool isDone(Event event);
+
+/// For who waits: a time that goes on, and a pause, the longer the more was waited.
+[[nodiscard]] int64_t clockNs() noexcept;
+void rest(int64_t waitedNs) noexcept;
 
 }  // namespace rg::gpu::runtime

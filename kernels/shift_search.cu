@@ -2,6 +2,7 @@
 #include "core/base/pixel.hpp"
 #include "core/motion/fit_sums.hpp"
 #include "core/motion/textured_cells.hpp"
+#include "core/simd/base/motion_rows.hpp"
 #include "kernels/block_reduce.hpp"
 #include "kernels/shift_search.hpp"
 #include "kernels/start.hpp"
@@ -22,6 +23,20 @@ __global__ void padRows(ImageView<const uint8_t> luma, PaddedView to) {
   if (!isWithin(p, to.rows.size)) return;
   to.rows.at(p.x, p.y) = luma.at(std::clamp(p.x - to.reach, 0, luma.width() - 1),
                                  std::clamp(p.y - to.reach, 0, luma.height() - 1));
+}
+
+__global__ void padSmoothRows(ImageView<const uint8_t> luma, PaddedView to) {
+  const Point p = pixelOfThread();
+  if (!isWithin(p, to.rows.size)) return;
+  const auto within = [](int at, int count) { return at < 0 ? 0 : at < count ? at : count - 1; };
+  const int x = within(p.x - to.reach, luma.width()), y = within(p.y - to.reach, luma.height());
+  const int left = within(x - 1, luma.width()), right = within(x + 1, luma.width());
+  const auto across = [&](int row) {
+    const uint8_t* levels = luma.row(within(row, luma.height()));
+    return rg::simd::binomialMean(levels[left], levels[x], levels[right]);
+  };
+  to.rows.at(p.x, p.y) =
+      static_cast<uint8_t>(rg::simd::binomialMean(across(y - 1), across(y), across(y + 1)));
 }
 
 __global__ void sumBoxesOfPixels(PaddedView luma, BoxesView to) {
@@ -170,6 +185,12 @@ __global__ void chooseShifts(const __grid_constant__ MatchedRegions regions, int
 void padLuma(ImageView<const uint8_t> luma, const PaddedView& to, Stream stream) {
   const auto pixels = static_cast<double>(to.rows.size.area());
   start(launchOver("padLuma", to.rows.size, 1, {2 * pixels, 0}), stream, padRows, luma, to);
+}
+
+void padSmooth(ImageView<const uint8_t> luma, const PaddedView& to, Stream stream) {
+  const auto pixels = static_cast<double>(to.rows.size.area());
+  start(launchOver("padSmooth", to.rows.size, 1, {2 * pixels, 20 * pixels}), stream, padSmoothRows,
+        luma, to);
 }
 
 void sumBoxes(const PaddedView& luma, const BoxesView& to, Stream stream) {

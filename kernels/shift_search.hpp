@@ -24,6 +24,8 @@ struct BoxesView {
 };
 
 void padLuma(ImageView<const uint8_t> luma, const PaddedView& to, Stream stream);
+/// Of the binomial means of 3x3 pixels.
+void padSmooth(ImageView<const uint8_t> luma, const PaddedView& to, Stream stream);
 void sumBoxes(const PaddedView& luma, const BoxesView& to, Stream stream);
 
 /// The parts of region i: starts[i] … starts[i + 1] − 1, at least one.

@@ -12,6 +12,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <utility>
 
 namespace rg::motion {
 
@@ -43,13 +44,38 @@ struct FitMoments {
   friend bool operator==(const FitMoments&, const FitMoments&) = default;
 };
 
-inline Point offsetOf(const MatchedCell& cell, Point centroid) {
-  const auto bounded = [](int d) { return std::clamp(d, -kMostOffsetPx, kMostOffsetPx); };
+/// Calls visit(sum) for each of them; all are known by name where this is compiled.
+template <class Visit>
+constexpr void forSums(FitMoments& m, const Visit& visit) {
+  const auto forEach = [&]<size_t... i>(auto& sums, std::index_sequence<i...>) {
+    (visit(sums[i]), ...);
+  };
+  constexpr std::make_index_sequence<6> kSix;
+  forEach(m.xx, kSix);
+  forEach(m.xy, kSix);
+  forEach(m.yy, kSix);
+  constexpr std::make_index_sequence<3> kThree;
+  forEach(m.xr, kThree);
+  forEach(m.yr, kThree);
+  forEach(m.x, kThree);
+  forEach(m.y, kThree);
+  visit(m.pixels);
+  visit(m.seen);
+  visit(m.r);
+  visit(m.rr);
+  visit(m.misfit);
+}
+
+// No references to constants: a device has none of the host's.
+constexpr Point offsetOf(const MatchedCell& cell, Point centroid) {
+  const auto bounded = [](int d) {
+    return d < -kMostOffsetPx ? -kMostOffsetPx : d > kMostOffsetPx ? kMostOffsetPx : d;
+  };
   return {bounded(cell.x + kCellSize / 2 - centroid.x),
           bounded(cell.y + kCellSize / 2 - centroid.y)};
 }
 
-inline Point displacementAt(const FitField& field, Point offset, int reach) {
+constexpr Point displacementAt(const FitField& field, Point offset, int reach) {
   const int most = reach * kFine - 1;
   const auto along = [&](int at, int slopeX, int slopeY) {
     return std::clamp(at + (slopeX * offset.x + slopeY * offset.y) / kSlopeUnitPx, -most, most);
@@ -59,7 +85,7 @@ inline Point displacementAt(const FitField& field, Point offset, int reach) {
 }
 
 /// What enters the frame has no match in the previous one.
-inline bool isVisible(const MatchedCell& cell, Point d, Size size) {
+constexpr bool isVisible(const MatchedCell& cell, Point d, Size size) {
   const auto isInside = [](int first, int shift, int length) {
     const int end = std::min(first + kCellSize, length);
     return first * kFine >= shift && (end - 1) * kFine - shift <= (length - 1) * kFine;
@@ -67,7 +93,8 @@ inline bool isVisible(const MatchedCell& cell, Point d, Size size) {
   return isInside(cell.x, d.x, size.width) && isInside(cell.y, d.y, size.height);
 }
 
-inline void addCell(const FitSums& sums, Point offset, FitMoments& moments) {
+/// Of a cell, or of a part of it.
+constexpr void addCell(const FitSums& sums, Point offset, FitMoments& moments) {
   const int x = offset.x, y = offset.y;
   const int places[] = {1, x, y, x * x, x * y, y * y};
   for (size_t i = 0; i < 6; ++i) {

@@ -52,6 +52,41 @@ struct FitSums {
   friend bool operator==(const FitSums&, const FitSums&) = default;
 };
 
+/// A pixel of the gradient (gx, gy).
+constexpr void addFitPixel(int gx, int gy, int residual, int limit, FitSums& sums) {
+  const int size = residual < 0 ? -residual : residual;
+  ++sums.seen;
+  sums.misfit += size < limit ? size : limit;
+  if (size > limit) return;
+  const int coarse = residual >> 4;
+  ++sums.pixels;
+  sums.x += gx;
+  sums.y += gy;
+  sums.r += residual;
+  sums.xx += gx * gx;
+  sums.xy += gx * gy;
+  sums.yy += gy * gy;
+  sums.xr += gx * residual;
+  sums.yr += gy * residual;
+  sums.rr += coarse * coarse;
+}
+
+/// Where a picture is looked at that is displaced by d, in 1/256 px.
+struct FitSampler {
+  Point whole;  ///< Pixel (0, 0), rounded down,
+  Point part;   ///< and 1/256 px beyond it.
+
+  explicit constexpr FitSampler(Point d)
+      : whole{-d.x >> kFineBits, -d.y >> kFineBits}, part{-d.x & (kFine - 1), -d.y & (kFine - 1)} {}
+
+  /// In 1/256 grey levels; both rows begin with the pixel that is left of the place.
+  [[nodiscard]] constexpr int between(const uint8_t* upper, const uint8_t* lower) const {
+    const int top = upper[0] * (kFine - part.x) + upper[1] * part.x;
+    const int bottom = lower[0] * (kFine - part.x) + lower[1] * part.x;
+    return (top * (kFine - part.y) + bottom * part.y) >> kFineBits;
+  }
+};
+
 /// The largest limit of a residual: half of the range never fits.
 inline constexpr int kMostLimit = 127 * kFine;
 

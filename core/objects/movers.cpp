@@ -9,15 +9,15 @@ void Movers::reset() {
 }
 
 void Movers::compareWith(const PastFrame& past, const motion::Motion& motion,
-                         const MoverRules& rules, const Executor& executor) {
+                         const MoverRules& rules, Operations& operations) {
   steps_.clear();
   for (const Track& track : rules.tracks)
     steps_.push_back(Tracker::expectedShift(track, past.camera, past.ageNs));
-  findOwnMotion(motion, {past.picture->luma(), past.camera, past.ageNs, rules.stepNs},
-                {rules.arcs, rules.weights, rules.expected, steps_}, executor, scratch_, own_);
+  findOwnMotion(motion, {*past.picture, past.camera, past.ageNs, rules.stepNs},
+                {rules.arcs, rules.weights, rules.expected, steps_}, operations, scratch_, own_);
 }
 
-void Movers::find(const motion::Motion& motion, const MoverRules& rules, const Executor& executor) {
+void Movers::find(const motion::Motion& motion, const MoverRules& rules, Operations& operations) {
   clearOwnMotion(motion.regions.size(), scratch_, own_);
   // What was not matched with the previous frame is not like it.
   if (motion.status == Status::Skipped) past_.clear();
@@ -27,21 +27,21 @@ void Movers::find(const motion::Motion& motion, const MoverRules& rules, const E
   const std::shared_ptr<const Picture>& now = motion.graph->picture;
   if (previous == nullptr || !now || previous->picture->size() != now->size()) {
     past_.clear();
-    evidence_.carry(motion, {}, rules.stepNs, executor);
+    evidence_.carry(motion, nullptr, rules.stepNs, operations);
     return;
   }
-  evidence_.carry(motion, previous->picture->luma(), rules.stepNs, executor);
-  compareWith(*previous, motion, rules, executor);
+  evidence_.carry(motion, previous->picture.get(), rules.stepNs, operations);
+  compareWith(*previous, motion, rules, operations);
   if (older == previous) return;
   sinceLast_ = own_;
-  compareWith(*older, motion, rules, executor);
+  compareWith(*older, motion, rules, operations);
   for (size_t i = 0; i < own_.size(); ++i)
     if (sinceLast_[i].isTried() && sinceLast_[i].gain > own_[i].gain) own_[i] = sinceLast_[i];
 }
 
 void Movers::remember(const motion::Motion& motion, const MoverRules& rules,
-                      const Executor& executor) {
-  evidence_.add(motion, own_, executor);
+                      Operations& operations) {
+  evidence_.add(motion, own_, operations);
   if (motion.graph->picture) past_.add(motion.graph->picture, rules.perPixelNs);
 }
 

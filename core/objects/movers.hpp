@@ -30,9 +30,9 @@ struct MoverRules {
 
 class Movers {
  public:
-  void find(const motion::Motion& motion, const MoverRules& rules, const Executor& executor);
+  void find(const motion::Motion& motion, const MoverRules& rules, Operations& operations);
   /// What find() has found is known to the frames that follow.
-  void remember(const motion::Motion& motion, const MoverRules& rules, const Executor& executor);
+  void remember(const motion::Motion& motion, const MoverRules& rules, Operations& operations);
   /// No frame is like those before.
   void reset();
 
@@ -45,7 +45,7 @@ class Movers {
 
  private:
   void compareWith(const PastFrame& past, const motion::Motion& motion, const MoverRules& rules,
-                   const Executor& executor);
+                   Operations& operations);
 
   PastFrames past_;
   MotionEvidence evidence_;

@@ -10,8 +10,8 @@
 #include "core/objects/merge/motion_trends.hpp"
 #include "core/objects/merge/mrf_merge.hpp"
 #include "core/objects/movers.hpp"
+#include "core/objects/operations.hpp"
 #include "core/objects/tracking/looks/contour.hpp"
-#include "core/objects/tracking/looks/object_pixels.hpp"
 #include "core/objects/tracking/region_owners.hpp"
 #include "core/objects/tracking/standing_tracks.hpp"
 #include "core/objects/tracking/tracker.hpp"
@@ -26,9 +26,10 @@ namespace {
 
 constexpr int64_t kLongestStepNs = 10'000'000'000;  // Sums of these last for 900 million frames.
 
-class CpuObjectStage final : public Stage {
+class ObjectStage final : public Stage {
  public:
-  explicit CpuObjectStage(Context context) : context_(std::move(context)) {}
+  explicit ObjectStage(Context context)
+      : context_(std::move(context)), operations_(makeOperations(context_)) {}
 
   Result<std::shared_ptr<const Objects>> process(Input in, const Params& params,
                                                  FrameTime time) override;
@@ -58,6 +59,7 @@ class CpuObjectStage final : public Stage {
   }
 
   Context context_;
+  std::unique_ptr<Operations> operations_;
   Tracker tracker_;
   MergeScratch mergeScratch_;
   std::vector<WeightedArc> arcs_;
@@ -78,7 +80,6 @@ class CpuObjectStage final : public Stage {
   GroupGrid evidence_;
   std::vector<uint8_t> isBackgroundRegion_;
   std::vector<ObjectSums> sums_;
-  ObjectPixelScratch pixelScratch_;
   MotionTrends trends_;
   motion::Motion trend_;  ///< What they say of this frame's regions; where the camera stands.
   LayerScratch layerScratch_;
@@ -88,7 +89,7 @@ class CpuObjectStage final : public Stage {
 };
 
 /// Time since the previous frame; a nominal step where it is unknown or runs backwards.
-int64_t CpuObjectStage::stepTo(FrameTime time) {
+int64_t ObjectStage::stepTo(FrameTime time) {
   const bool isKnown = hasLast_ && time.isKnown && last_.isKnown && time.ns > last_.ns;
   const int64_t step = isKnown    ? std::min(timeBetween(last_.ns, time.ns), kLongestStepNs)
                        : hasLast_ ? kNominalStepNs
@@ -98,7 +99,7 @@ int64_t CpuObjectStage::stepTo(FrameTime time) {
   return step;
 }
 
-void CpuObjectStage::reset(Reset what) {
+void ObjectStage::reset(Reset what) {
   if (what == Reset::Gap) return;  // The next frame's time tells how far to predict.
   tracker_.reset();
   movers_.reset();
@@ -107,7 +108,7 @@ void CpuObjectStage::reset(Reset what) {
 }
 
 /// The objects of the previous frame, moved as they are expected to, name the regions of this one.
-void CpuObjectStage::expectLabels(const graph::Graph& graph, int64_t stepNs, Objects& objects) {
+void ObjectStage::expectLabels(const graph::Graph& graph, int64_t stepNs, Objects& objects) {
   expected_.assign(graph.regions.size(), {});
   objects.regionExpected.assign(graph.regions.size(), 0);
   if (tracker_.owner().empty() || evidence_.frame != graph.size) return;
@@ -120,15 +121,15 @@ void CpuObjectStage::expectLabels(const graph::Graph& graph, int64_t stepNs, Obj
 }
 
 /// Regions that are expected to be one object start as one group, all others alone.
-void CpuObjectStage::startGroups() {
+void ObjectStage::startGroups() {
   const auto tracks = static_cast<uint32_t>(tracker_.tracks().size());
   groupOf_.resize(expected_.size());
   for (uint32_t r = 0; r < groupOf_.size(); ++r)
     groupOf_[r] = expected_[r] ? expected_[r].index() : tracks + r;
 }
 
-void CpuObjectStage::mergeRegions(const Input& in, const Params& params, int64_t stepNs,
-                                  Objects& objects) {
+void ObjectStage::mergeRegions(const Input& in, const Params& params, int64_t stepNs,
+                               Objects& objects) {
   const motion::Motion& motion = *in.motion;
   const graph::Graph& graph = *motion.graph;
   const MergeWeights weights = weightsOf(params, graph.size, stepNs);
@@ -148,9 +149,9 @@ void CpuObjectStage::mergeRegions(const Input& in, const Params& params, int64_t
   if (!isStill) {
     const MoverRules rules{objects.arcs,      weights, expected_,
                            tracker_.tracks(), stepNs,  nsPerPixel(params, graph.size)};
-    movers_.find(motion, rules, *context_.cpu);
+    movers_.find(motion, rules, *operations_);
     tieToGround(graph, weights, objects.ground);
-    movers_.remember(motion, rules, *context_.cpu);
+    movers_.remember(motion, rules, *operations_);
     objects.groundGroup =
         minimiseWithGround(graph, objects.arcs, {objects.ground, isOpen_, movers_.moves()},
                            groundScratch_, mergeScratch_, groupOf_);
@@ -164,8 +165,8 @@ void CpuObjectStage::mergeRegions(const Input& in, const Params& params, int64_t
 }
 
 /// Method::Literal.
-void CpuObjectStage::mergeByEnergy(const motion::Motion& motion, const MergeWeights& weights,
-                                   Objects& objects) {
+void ObjectStage::mergeByEnergy(const motion::Motion& motion, const MergeWeights& weights,
+                                Objects& objects) {
   trends_.reset();
   weighArcs(motion, expected_, weights, objects.arcs);
   startGroups();
@@ -181,7 +182,7 @@ void CpuObjectStage::mergeByEnergy(const motion::Motion& motion, const MergeWeig
   objects.setCamera(CameraMotion(Point{ground.dx, ground.dy}));
 }
 
-void CpuObjectStage::nameGroups(const motion::Motion& shown, Objects& objects) {
+void ObjectStage::nameGroups(const motion::Motion& shown, Objects& objects) {
   objects.isCutShort = mergeScratch_.isCutShort;
   objects.regionGroup.resize(groupOf_.size());
   std::transform(groupOf_.begin(), groupOf_.end(), objects.regionGroup.begin(),
@@ -189,8 +190,8 @@ void CpuObjectStage::nameGroups(const motion::Motion& shown, Objects& objects) {
   describeGroups(shown, objects.regionGroup, groups_);
 }
 
-void CpuObjectStage::tieToGround(const graph::Graph& graph, const MergeWeights& weights,
-                                 std::vector<GroundEnergy>& energies) {
+void ObjectStage::tieToGround(const graph::Graph& graph, const MergeWeights& weights,
+                              std::vector<GroundEnergy>& energies) {
   energies.clear();
   isOpen_.clear();
   const std::span<const OwnMotion> own = movers_.own();
@@ -208,7 +209,7 @@ void CpuObjectStage::tieToGround(const graph::Graph& graph, const MergeWeights& 
 }
 
 /// What has stopped is expected where it is seen, whatever it did before.
-void CpuObjectStage::recallStanding(const graph::Graph& graph, Objects& objects) {
+void ObjectStage::recallStanding(const graph::Graph& graph, Objects& objects) {
   standing_.assign(graph.regions.size(), {});
   findStandingTracks(tracker_.tracks(), *graph.labels, objects.camera, graph.regions,
                      standingScratch_, standing_);
@@ -221,7 +222,7 @@ void CpuObjectStage::recallStanding(const graph::Graph& graph, Objects& objects)
 
 /// Under Scope::Areas regions of the background lie round the things: a group of which most pixels
 /// are not foreground. A sixteenth of the pixels tells it.
-void CpuObjectStage::markSurroundings(const Input& in, const Objects& objects) {
+void ObjectStage::markSurroundings(const Input& in, const Objects& objects) {
   constexpr int kStep = 4;
   const graph::Graph& graph = *in.motion->graph;
   if (!in.foreground || in.foreground->mask.size() != graph.size) return;
@@ -238,23 +239,23 @@ void CpuObjectStage::markSurroundings(const Input& in, const Objects& objects) {
 }
 
 /// Under Scope::Frame the ground's group is the background.
-void CpuObjectStage::markBackground(const Input& in, const Objects& objects) {
+void ObjectStage::markBackground(const Input& in, const Objects& objects) {
   isBackground_.assign(groups_.size(), 0);
   if (in.motion->graph->labels->scope == segmentation::Scope::Areas)
     return markSurroundings(in, objects);
   if (objects.groundGroup) isBackground_[objects.groundGroup.index()] = 1;
 }
 
-void CpuObjectStage::givePixels(const graph::Graph& graph, Objects& objects) {
+void ObjectStage::givePixels(const graph::Graph& graph, Objects& objects) {
   isBackgroundRegion_.resize(graph.regions.size());
   for (size_t r = 0; r < isBackgroundRegion_.size(); ++r)
     isBackgroundRegion_[r] = isBackground_[objects.regionGroup[r].index()];
   sums_.resize(tracker_.tracks().size());
-  findObjectPixels(graph, isBackgroundRegion_, {evidence_, tracker_.owner()}, pixelScratch_,
-                   {objects.slots, sums_});
+  operations_->findObjectPixels(graph, isBackgroundRegion_, {evidence_, tracker_.owner()},
+                                {objects.slots, sums_});
 }
 
-void CpuObjectStage::describe(const graph::Graph& graph, bool hasTime, Objects& objects) {
+void ObjectStage::describe(const graph::Graph& graph, bool hasTime, Objects& objects) {
   const std::vector<Track>& tracks = tracker_.tracks();
   objects.objects.resize(tracks.size());
   for (size_t i = 0; i < tracks.size(); ++i) {
@@ -295,7 +296,7 @@ void CpuObjectStage::describe(const graph::Graph& graph, bool hasTime, Objects& 
 }
 
 /// A region is of the object that owns most of its cells.
-void CpuObjectStage::nameRegions(const graph::Graph& graph, Objects& objects) {
+void ObjectStage::nameRegions(const graph::Graph& graph, Objects& objects) {
   shifts_.assign(tracker_.tracks().size(), {});
   regionOwner_.resize(graph.regions.size());
   findRegionOwners(*graph.labels, evidence_, tracker_.owner(), shifts_, ownerScratch_,
@@ -305,7 +306,7 @@ void CpuObjectStage::nameRegions(const graph::Graph& graph, Objects& objects) {
     if (regionOwner_[r]) objects.regionObject[r] = trackAt(regionOwner_[r]).id;
 }
 
-void CpuObjectStage::gatherEvidence(const graph::Graph& graph, const Objects& objects) {
+void ObjectStage::gatherEvidence(const graph::Graph& graph, const Objects& objects) {
   gather(graph, objects.regionGroup, isBackground_, expected_, evidence_);
   evidence_.camera = objects.camera;
   evidence_.showsMovers = graph.labels->scope == segmentation::Scope::Frame;
@@ -319,7 +320,7 @@ void CpuObjectStage::gatherEvidence(const graph::Graph& graph, const Objects& ob
 }
 
 /// Groups are known as what their largest region is expected to be.
-void CpuObjectStage::markKnown(const graph::Graph& graph, const Objects& objects) {
+void ObjectStage::markKnown(const graph::Graph& graph, const Objects& objects) {
   std::vector<uint8_t>& isKnown = evidence_.isKnown;
   isKnown.assign(groups_.size(), 0);
   if (evidence_.showsMovers) return;
@@ -332,8 +333,8 @@ void CpuObjectStage::markKnown(const graph::Graph& graph, const Objects& objects
   }
 }
 
-Result<std::shared_ptr<const Objects>> CpuObjectStage::process(Input in, const Params& params,
-                                                               FrameTime time) {
+Result<std::shared_ptr<const Objects>> ObjectStage::process(Input in, const Params& params,
+                                                            FrameTime time) {
   const std::shared_ptr<const motion::Motion>& motion = in.motion;
   const std::shared_ptr<Objects> objects = pool_.take();
   objects->size = motion->size;
@@ -383,7 +384,7 @@ Input::Input(std::shared_ptr<const motion::Motion> found) : motion(std::move(fou
 }
 
 std::unique_ptr<Stage> makeStage(Context context) {
-  return std::make_unique<RenewedStage<Stage, CpuObjectStage>>(std::move(context));
+  return std::make_unique<RenewedStage<Stage, ObjectStage>>(std::move(context));
 }
 
 }  // namespace rg::objects

@@ -50,11 +50,11 @@ void Dispatcher::copy(const BitView& from, const BitTarget& to) const {
 }
 
 void Dispatcher::send(void* to, const void* from, size_t bytes) const {
-  runtime::upload(to, from, bytes, stream());
+  device_.lane()->staging().upload(to, from, bytes);
 }
 
 void Dispatcher::fetch(void* to, const void* from, size_t bytes) const {
-  runtime::download(to, from, bytes, stream());
+  device_.lane()->staging().download(to, from, bytes);
 }
 
 }  // namespace rg::gpu

@@ -12,6 +12,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <type_traits>
 #include <vector>
 
@@ -84,6 +85,13 @@ class Dispatcher {
   [[nodiscard]] BitTarget copyOf(const BitView& mask) const;
   void copy(const BitView& from, const BitTarget& to) const;
   void send(void* to, const void* from, size_t bytes) const;
+  /// In scratch.
+  template <class T>
+  [[nodiscard]] const T* sent(std::span<const T> list) const {
+    auto* there = scratch().take<T>(static_cast<int64_t>(list.size()));
+    send(there, list.data(), list.size_bytes());
+    return there;
+  }
   /// Waits for it.
   template <class T>
   [[nodiscard]] T fetched(const T* from) const {

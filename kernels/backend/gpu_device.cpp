@@ -4,6 +4,7 @@
 #include "kernels/backend/background_operations.hpp"
 #include "kernels/backend/graph_operations.hpp"
 #include "kernels/backend/motion_operations.hpp"
+#include "kernels/backend/object_operations.hpp"
 #include "kernels/backend/segmentation_operations.hpp"
 #include "kernels/runtime.hpp"
 
@@ -23,11 +24,11 @@ class GpuMemory final : public DeviceMemory {
   [[nodiscard]] void* data() const override { return memory_; }
   void upload(const void* from, size_t bytes) override {
     lane_->enter();
-    runtime::upload(memory_, from, bytes, lane_->stream());
+    lane_->staging().upload(memory_, from, bytes);
   }
   void download(void* to, size_t bytes) override {
     lane_->enter();
-    runtime::download(to, memory_, bytes, lane_->stream());
+    lane_->staging().download(to, memory_, bytes);
   }
 
  private:
@@ -42,13 +43,16 @@ class GpuMemory final : public DeviceMemory {
 Lane::Lane(int device) : device_(device) {
   enter();
   stream_ = runtime::makeStream();
+  staging_ = std::make_unique<Staging>(stream_);
 }
 
 Lane::~Lane() {
+  staging_.reset();
   runtime::endStream(stream_);
 }
 
 void Lane::enter() const {
+  if (staging_) staging_->expectAlive();
   runtime::choose(device_);
 }
 
@@ -90,6 +94,10 @@ std::unique_ptr<rg::graph::Operations> GpuDevice::graphOperations(const Executor
 
 std::unique_ptr<rg::motion::Operations> GpuDevice::motionOperations(const Executor& executor) {
   return motion::makeOperations(*this, executor);
+}
+
+std::unique_ptr<rg::objects::Operations> GpuDevice::objectOperations(const Executor& executor) {
+  return objects::makeOperations(*this, executor);
 }
 
 Result<std::shared_ptr<Device>> openDevice(int device, const std::shared_ptr<Device>& neighbour) {

@@ -7,8 +7,10 @@
 #include "core/base/memory/device.hpp"
 #include "core/graph/operations.hpp"
 #include "core/motion/operations.hpp"
+#include "core/objects/operations.hpp"
 #include "core/segmentation/operations.hpp"
 #include "kernels/backend/open_device.hpp"
+#include "kernels/backend/staging.hpp"
 #include "kernels/launch.hpp"
 
 #include <cstddef>
@@ -30,11 +32,15 @@ class Lane {
   Lane& operator=(const Lane&) = delete;
   [[nodiscard]] Stream stream() const { return stream_; }
   /// CUDA's calls go to the device that the calling thread has chosen last.
+  /// Throws DeviceError, also where the device hangs.
   void enter() const;
+  /// Copies; after enter().
+  [[nodiscard]] Staging& staging() { return *staging_; }
 
  private:
   int device_;
   Stream stream_;
+  std::unique_ptr<Staging> staging_;
 };
 
 /// Memory for the scratch of one operation at a time; what follows in the stream comes later and
@@ -71,7 +77,8 @@ class GpuDevice final : public Device,
                         public rg::background::OperationsSource,
                         public rg::segmentation::OperationsSource,
                         public rg::graph::OperationsSource,
-                        public rg::motion::OperationsSource {
+                        public rg::motion::OperationsSource,
+                        public rg::objects::OperationsSource {
  public:
   GpuDevice(std::string name, std::shared_ptr<Lane> lane)
       : name_(std::move(name)), lane_(std::move(lane)), scratch_(lane_) {}
@@ -86,6 +93,8 @@ class GpuDevice final : public Device,
   [[nodiscard]] std::unique_ptr<rg::graph::Operations> graphOperations(
       const Executor& executor) override;
   [[nodiscard]] std::unique_ptr<rg::motion::Operations> motionOperations(
+      const Executor& executor) override;
+  [[nodiscard]] std::unique_ptr<rg::objects::Operations> objectOperations(
       const Executor& executor) override;
 
   [[nodiscard]] const std::shared_ptr<Lane>& lane() const { return lane_; }

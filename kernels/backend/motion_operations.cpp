@@ -92,13 +92,6 @@ class GpuOperations final : public Cpu, private Dispatcher {
     return {scratch().take<uint32_t>(sums), scratch().take<uint32_t>(sums), regions};
   }
 
-  template <class T>
-  [[nodiscard]] const T* sent(std::span<const T> list) const {
-    auto* there = scratch().take<T>(static_cast<int64_t>(list.size()));
-    send(there, list.data(), list.size_bytes());
-    return there;
-  }
-
   std::vector<uint32_t> regions_, starts_;
   std::vector<GradientProducts> gradients_;
   std::vector<uint8_t> stills_;

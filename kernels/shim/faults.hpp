@@ -12,6 +12,7 @@ namespace rg::gpu::shim {
 struct Fault {
   uint64_t call = 0;  ///< Which of the calls from then on, 0 the next one.
   DeviceError::Kind kind = DeviceError::Kind::Failed;
+  bool hangs = false;  ///< Instead: nothing comes to an end any more. Calls don't tell.
 };
 
 /// Forgets what has failed and counts calls anew.
@@ -20,6 +21,8 @@ void plan(std::optional<Fault> fault);
 [[nodiscard]] uint64_t countCalls();
 /// Allocations that have not been released.
 [[nodiscard]] int64_t countAllocations();
+/// The same of the host's memory for copies.
+[[nodiscard]] int64_t countHostAllocations();
 
 /// Every call passes here. Throws DeviceError if it is the one; after a lost device every one.
 void call(const char* name);

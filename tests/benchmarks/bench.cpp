@@ -36,7 +36,6 @@ class Contexts {
     last_ = valueOf(gpu::openDevice(device_, last_));
     return {cpu_, last_};
   }
-  [[nodiscard]] Context onHost() const { return {cpu_, {}}; }
   /// What is said of a device that they run on.
   [[nodiscard]] std::string name() const { return last_ ? ", on " + last_->name() : ""; }
   [[nodiscard]] const Executor& cpu() const { return *cpu_; }
@@ -55,7 +54,7 @@ class Pipeline {
     segmentation_ = segmentation::makeStage(contexts_.next());
     graph_ = graph::makeStage(contexts_.next());
     motion_ = motion::makeStage(contexts_.next());
-    objects_ = objects::makeStage(contexts_.onHost());
+    objects_ = objects::makeStage(contexts_.next());
     segmentationParams_.scope = options.scope;
     segmentationParams_.maxRegions = options.regions;
     segmentationParams_.minAreaPx = options.minAreaPx;

@@ -50,7 +50,7 @@ Take takeAt(int frame) {
   return take;
 }
 
-TEST(Backend, BackgroundIsTheSameOnADevice) {
+TEST(BackgroundBackend, BackgroundIsTheSameOnADevice) {
   const auto device = openTested();
   StagedScene cpu({}, kQuick), gpu({}, kQuick, device);
   std::vector<SceneEvent> seen;
@@ -73,7 +73,7 @@ constexpr int kWalking = 5, kAfter = 3;
 /// Fails the calls of a frame in turn, in a stream of its own each time, and compares that frame
 /// and those behind it. Of a frame that comes late each run takes others: those before it take
 /// long.
-void failCalls(int frame, DeviceError::Kind kind,
+void failCalls(int frame, Failure how,
                const std::vector<std::shared_ptr<const Foreground>>& expected) {
   const int64_t before = countAllocations();
   std::mt19937 random(std::random_device{}());
@@ -85,12 +85,12 @@ void failCalls(int frame, DeviceError::Kind kind,
     const auto device = openTested();
     StagedScene gpu({}, kQuick, device);
     for (int i = 0; i < frame; ++i) (void)gpu.show(takeAt(i));
-    failCall(call, kind);
+    failCall(call, how);
     const auto shown = gpu.show(takeAt(frame));
     hasFailed = !device->isUp();
     if (hasFailed) {
       expectSame(*shown, *expected[static_cast<size_t>(frame)], frame);
-      EXPECT_EQ(shown->scene.event == SceneEvent::ModelLost, kind == DeviceError::Kind::Lost);
+      EXPECT_EQ(shown->scene.event == SceneEvent::ModelLost, how != Failure::Call);
       for (int i = frame + 1; i < frame + kAfter; ++i)
         expectSame(*gpu.show(takeAt(i)), *expected[static_cast<size_t>(i)], i);
     }
@@ -99,16 +99,16 @@ void failCalls(int frame, DeviceError::Kind kind,
   EXPECT_EQ(countAllocations(), before);
 }
 
-TEST(Backend, AFailedCallChangesNoFrame) {
+TEST(BackgroundBackend, AFailedCallChangesNoFrame) {
   if (!isHost()) GTEST_SKIP() << "a GPU does not fail when asked";
   StagedScene cpu({}, kQuick);
   std::vector<std::shared_ptr<const Foreground>> expected;
   for (int i = 0; i < kWalking + kAfter; ++i) expected.push_back(cpu.show(takeAt(i)));
-  for (const int frame : {0, 1, kWalking}) failCalls(frame, DeviceError::Kind::Failed, expected);
+  for (const int frame : {0, 1, kWalking}) failCalls(frame, Failure::Call, expected);
 }
 
 /// The frame is the first of a model that starts with it, and says so.
-TEST(Backend, ALostDeviceCostsTheModelOnly) {
+TEST(BackgroundBackend, ALostDeviceOrOneThatHangsCostsTheModelOnly) {
   if (!isHost()) GTEST_SKIP() << "a GPU does not fail when asked";
   StagedScene cpu({}, kQuick);
   std::vector<std::shared_ptr<const Foreground>> expected;
@@ -116,7 +116,7 @@ TEST(Backend, ALostDeviceCostsTheModelOnly) {
     if (i == kWalking) cpu.forget();
     expected.push_back(cpu.show(takeAt(i)));
   }
-  failCalls(kWalking, DeviceError::Kind::Lost, expected);
+  for (const auto how : {Failure::Loss, Failure::Hang}) failCalls(kWalking, how, expected);
 }
 
 }  // namespace

@@ -92,4 +92,29 @@ class Bits {
   Plane<uint64_t> words_;
 };
 
+/// A list. Beside those on both sides nothing is written.
+template <class T>
+class Guarded {
+ public:
+  Guarded(const std::vector<T>& values, const T& guard) : values_(values), guard_(guard) {
+    values_.push_back(guard);
+    values_.insert(values_.begin(), guard);
+  }
+  T* data() { return values_.data() + 1; }
+  template <class Same>
+  void expect(const std::vector<T>& expected, const Same& isSame) {
+    ASSERT_EQ(expected.size() + 2, values_.size());
+    for (size_t i = 0; i < expected.size(); ++i)
+      ASSERT_TRUE(isSame(values_[i + 1], expected[i])) << "number " << i;
+    ASSERT_TRUE(isSame(values_.front(), guard_) && isSame(values_.back(), guard_));
+  }
+  void expectGuarded() {
+    ASSERT_TRUE(values_.front() == guard_ && values_.back() == guard_) << "a write outside";
+  }
+
+ private:
+  std::vector<T> values_;
+  T guard_;
+};
+
 }  // namespace rg::test

@@ -174,10 +174,34 @@ void launchSearch(const Memory& m, const Search& search) {
   gpu::motion::searchShifts(regions, {m.planes.planes[0], luma, boxes}, range,
                             {nullptr, nullptr, search.regions}, nullptr, nullptr);
   gpu::motion::estimateMotion(regions, nullptr, nullptr, nullptr, nullptr);
+  gpu::motion::padSmooth(m.planes.planes[0], luma, nullptr);
+  constexpr int kFits = 9;  // Two trials on two planes, two steps from there, three from the prior.
+  for (int i = 0; i < kFits; ++i)
+    gpu::motion::sumMoments(regions, nullptr, m.planes.planes[0], luma, nullptr, nullptr);
 }
 
-/// A frame's way through what there is of the pipeline: method hybrid, segmentation, graph, the
-/// search for motion.
+/// Before a moving camera: two rounds with the frame before and with an older one, of which the
+/// second knows of movers; evidence; the pixels of a few objects.
+void launchObjects(const Memory& m, const Search& search) {
+  constexpr int kEarlier = 2, kRounds = 2, kObjects = 16;
+  const ImageView<const uint8_t> luma = m.planes.planes[0];
+  const auto labels = plane<const uint16_t>(m.size);
+  for (int frame = 0; frame < kEarlier; ++frame) {
+    gpu::warpByCamera(luma, CameraMotion(Point{5, 3}), m.targets.planes[0], nullptr, nullptr);
+    for (int round = 0; round < kRounds; ++round)
+      gpu::objects::compareRegions({labels, luma, luma, nullptr},
+                                   {nullptr, search.regions, 1, round > 0}, {}, nullptr);
+  }
+  const auto gains = plane<int16_t>(objects::evidenceGridOf(m.size));
+  gpu::objects::carryEvidence({labels, luma, luma, nullptr, search.regions, gains, 256},
+                              {gains, nullptr, nullptr}, nullptr);
+  gpu::objects::addEvidence(labels, nullptr, gains, gains, nullptr);
+  gpu::objects::findObjectPixels({labels, nullptr, nullptr, 1, m.size.width, m.planes},
+                                 {plane<uint16_t>(m.size), nullptr, nullptr, kObjects}, nullptr);
+}
+
+/// A frame's way through the pipeline: method hybrid, segmentation, graph, the search for motion,
+/// objects.
 /// Returns of each stage how many launches there were by its end.
 std::vector<size_t> launchFrame(Size size, const Search& search) {
   const Memory m{size};
@@ -193,9 +217,12 @@ std::vector<size_t> launchFrame(Size size, const Search& search) {
   mark();
   launchSearch(m, search);
   mark();
+  launchObjects(m, search);
+  mark();
   return ends;
 }
-constexpr const char* kStages[] = {"load", "bgremove", "hsvsegment", "srg", "prmmotion"};
+constexpr const char* kStages[] = {"load", "bgremove",  "hsvsegment",
+                                   "srg",  "prmmotion", "mrfmerge"};
 
 /// Fewer blocks than multiprocessors have no more than their share of bandwidth and rate.
 double microseconds(const gpu::Launch& launch, const Device& device) {

@@ -78,15 +78,7 @@ void parity_buildGraph() {
         Picture picture;
         loadScene(size, fill, 1, isGrey, picture);
         Image<uint16_t> ids(size);
-        // Each label has a pixel, as the stage has it.
-        std::vector<uint16_t> numbers(kinds + 1, 0);
-        uint16_t count = 0;
-        for (int y = 0; y < size.height; ++y)
-          for (int x = 0; x < size.width; ++x) {
-            const uint32_t kind = hashOf(x / block, y / block, 14) % (kinds + 1);
-            if (kind != 0 && numbers[kind] == 0) numbers[kind] = ++count;
-            ids.at(x, y) = numbers[kind];
-          }
+        const uint32_t count = numberPatches(kinds, block, ids);
         checkGraph(std::move(picture), ids, count,
                    block == 3 ? Connectivity::Eight : Connectivity::Four);
       }

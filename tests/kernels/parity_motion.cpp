@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/motion/shift_search.hpp"
+#include "kernels/fit_moments.hpp"
 #include "kernels/motion_estimate.hpp"
 #include "kernels/shift_search.hpp"
 #include "tests/kernels/parity.hpp"
@@ -140,6 +141,51 @@ void parity_padLuma() {
     gpu::motion::padLuma(Plane<uint8_t>(luma.view()), there.view, nullptr);
     there.rows.expect(padded.rows(), "padded");
   });
+}
+
+void parity_padSmooth() {
+  forPadded([](const Image<uint8_t>& luma, const motion::PaddedLuma& padded) {
+    motion::PaddedLuma smooth;
+    smooth.buildSmooth(luma, padded.reach(), oneThread());
+    DeviceLuma there(smooth, luma.size());
+    gpu::motion::padSmooth(Plane<uint8_t>(luma.view()), there.view, nullptr);
+    there.rows.expect(smooth.rows(), "smoothed");
+  });
+}
+
+/// Displacements and slopes up to the reach, limits of all kinds.
+void parity_sumMoments() {
+  int64_t seen = 0, fitting = 0;
+  forMoved([&](const MovedPicture& moved, const Regions& regions) {
+    motion::PaddedLuma before;
+    before.build(moved.before, 7, oneThread());
+    DeviceLuma previous(before, moved.before.size());
+    gpu::motion::padLuma(Plane<uint8_t>(moved.before.view()), previous.view, nullptr);
+    std::vector<gpu::motion::FittedRegion> fitted;
+    std::vector<motion::FitMoments> expected, found(static_cast<size_t>(regions.count()));
+    for (int i = 0; i < regions.count(); ++i) {
+      const auto draw = [&](uint32_t what, int most) {
+        return static_cast<int>(hashOf(i, moved.now.width(), what) %
+                                static_cast<uint32_t>(2 * most + 1)) -
+               most;
+      };
+      const int most = i % 3 == 0 ? 8 * motion::kFine : 2 * motion::kFine;
+      fitted.push_back({{{draw(1, most), draw(2, most)},
+                         {draw(3, 256), draw(4, 256), draw(5, 9), draw(6, 256)},
+                         {20 + draw(7, 20), 20 + draw(8, 20)}},
+                        i % 2 == 0 ? motion::kMostLimit : 900 + draw(9, 800)});
+      const motion::FitPlane plane{moved.now, &before};
+      expected.push_back(
+          motion::sumMoments(regions.of(i), plane, fitted.back().field, fitted.back().limit));
+      seen += expected.back().seen;
+      fitting += expected.back().pixels;
+    }
+    gpu::motion::sumMoments(regions.view(), fitted.data(), Plane<uint8_t>(moved.now.view()),
+                            previous.view, found.data(), nullptr);
+    ASSERT_EQ(found, expected);
+  });
+  EXPECT_GT(fitting, 0);
+  EXPECT_GT(seen, fitting);
 }
 
 void parity_sumBoxes() {

@@ -15,6 +15,20 @@ namespace rg::test {
 
 using Numbers = std::vector<uint32_t>;
 
+/// Labels of up to so many kinds of patches, and pixels without any. Returns how many there are:
+/// each has a pixel, as the stage has it.
+inline uint32_t numberPatches(uint32_t kinds, int sidePx, Image<uint16_t>& ids) {
+  std::vector<uint16_t> numbers(kinds + 1, 0);
+  uint16_t count = 0;
+  for (int y = 0; y < ids.height(); ++y)
+    for (int x = 0; x < ids.width(); ++x) {
+      const uint32_t kind = hashOf(x / sidePx, y / sidePx, 14) % (kinds + 1);
+      if (kind != 0 && numbers[kind] == 0) numbers[kind] = ++count;
+      ids.at(x, y) = numbers[kind];
+    }
+  return count;
+}
+
 /// Sums up what pairs of numbers come with.
 using PairSums = std::map<std::pair<uint32_t, uint32_t>, uint32_t>;
 inline void add(uint32_t a, uint32_t b, uint32_t value, PairSums& sums) {

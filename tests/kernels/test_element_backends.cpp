@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Elements with a GPU that is the host (kernels/shim): what an application sees of it.
+#include "kernels/backend/staging.hpp"
 #include "kernels/shim/block.hpp"
 #include "kernels/shim/faults.hpp"
 #include "tests/support/busy_scene.hpp"
@@ -23,7 +24,7 @@ using gpu::shim::Fault;
 const Caps kCaps{"I420", 96, 72};
 constexpr int kFrames = 16, kFaulty = 10;
 
-constexpr const char* kOnDevice[] = {"bgremove", "hsvsegment", "srg", "prmmotion"};
+constexpr const char* kOnDevice[] = {"bgremove", "hsvsegment", "srg", "prmmotion", "mrfmerge"};
 
 std::string activeBackend(const Chain& chain, const char* name) {
   GstElement* element = chain.element(name);
@@ -46,7 +47,7 @@ std::string activeBackend(const Chain& chain) {
 std::string stagesWith(const std::string& backend) {
   const std::string on = " backend=" + backend;
   return "bgremove training-frames=2" + on + " ! hsvsegment" + on + " ! srg" + on +
-         " ! prmmotion max-shift=6" + on + " ! mrfmerge";
+         " ! prmmotion max-shift=6" + on + " ! mrfmerge" + on;
 }
 
 /// What all stages say of each frame.
@@ -90,15 +91,24 @@ uint64_t callsOfFrame() {
   return gpu::shim::countCalls();
 }
 
-/// Each element tells of its own failure. Calls are those of one frame, in steps that hit other
-/// ones in each run, and each element.
+/// Calls of one frame, in steps that hit other ones in each run, and each element: the last one has
+/// the fewest.
+std::vector<uint64_t> chooseCalls() {
+  std::mt19937 random(std::random_device{}());
+  const uint64_t calls = callsOfFrame();
+  std::vector<uint64_t> chosen;
+  for (uint64_t call = random() % 9; call + 3 < calls; call += 6 + random() % 9)
+    chosen.push_back(call);
+  chosen.push_back(calls - 3);
+  return chosen;
+}
+
+/// Each element tells of its own failure.
 TEST_F(ElementBackend, AFailureIsToldOnceAndCostsNothing) {
   Chain cpu(stagesWith("cpu"), kCaps);
   const auto expected = tellAll(cpu, std::nullopt);
-  std::mt19937 random(std::random_device{}());
   std::set<std::string> fallen;
-  const uint64_t calls = callsOfFrame();
-  for (uint64_t call = random() % 9; call < calls; call += 6 + random() % 9) {
+  for (const uint64_t call : chooseCalls()) {
     SCOPED_TRACE("call " + std::to_string(call));
     Chain gpu(stagesWith("auto"), kCaps);
     ASSERT_EQ(activeBackend(gpu), "cuda: host");
@@ -113,9 +123,10 @@ TEST_F(ElementBackend, AFailureIsToldOnceAndCostsNothing) {
   EXPECT_EQ(fallen.size(), std::size(kOnDevice));
 }
 
-TEST_F(ElementBackend, ALostDeviceIsASceneEventAndNoLostFrame) {
+/// Each element tells of it, and bgremove of the model, which was on the device only.
+void expectLoss(const Fault& fault) {
   Chain gpu(stagesWith("cuda"), kCaps);
-  (void)tellAll(gpu, Fault{12, DeviceError::Kind::Lost});
+  (void)tellAll(gpu, fault);
   EXPECT_EQ(activeBackend(gpu), "cpu");
   constexpr auto kWanted = static_cast<GstMessageType>(GST_MESSAGE_WARNING | GST_MESSAGE_ELEMENT);
   int warnings = 0, losses = 0;
@@ -125,6 +136,17 @@ TEST_F(ElementBackend, ALostDeviceIsASceneEventAndNoLostFrame) {
   }
   EXPECT_EQ(warnings, static_cast<int>(std::size(kOnDevice)));
   EXPECT_EQ(losses, 1);
+}
+
+TEST_F(ElementBackend, ALostDeviceIsASceneEventAndNoLostFrame) {
+  expectLoss({12, DeviceError::Kind::Lost});
+}
+
+TEST_F(ElementBackend, ADeviceThatHangsIsALostOne) {
+  const int64_t begin = gpu::runtime::clockNs();
+  expectLoss({12, {}, true});
+  // One of the elements has waited, the others know.
+  EXPECT_LT(gpu::runtime::clockNs() - begin, 2 * gpu::kHangNs);
 }
 
 /// Whatever is in view: the device's memory is of the size before.

@@ -25,8 +25,13 @@ std::shared_ptr<Device> openTested(const std::shared_ptr<Device>& neighbour = nu
 
 /// Whether calls can be made to fail and allocations be counted: not a GPU's.
 [[nodiscard]] bool isHost();
-/// Number `call` of the calls from then on is going to fail.
-void failCall(uint64_t call, DeviceError::Kind kind);
+enum class Failure : uint8_t {
+  Call,  ///< The call fails, and no other.
+  Loss,  ///< The device is lost with it.
+  Hang,  ///< Nothing that the device was given comes to an end from then on.
+};
+/// Of number `call` of the calls from then on.
+void failCall(uint64_t call, Failure how);
 /// Allocations that have not been released.
 [[nodiscard]] int64_t countAllocations();
 

@@ -46,7 +46,7 @@ bool isHost() {
   return false;
 }
 
-void failCall(uint64_t, DeviceError::Kind) {
+void failCall(uint64_t, Failure) {
   ADD_FAILURE() << "a GPU's calls can't be made to fail";
 }
 

@@ -48,8 +48,9 @@ bool isHost() {
   return true;
 }
 
-void failCall(uint64_t call, DeviceError::Kind kind) {
-  gpu::shim::plan(gpu::shim::Fault{call, kind});
+void failCall(uint64_t call, Failure how) {
+  const auto kind = how == Failure::Loss ? DeviceError::Kind::Lost : DeviceError::Kind::Failed;
+  gpu::shim::plan(gpu::shim::Fault{call, kind, how == Failure::Hang});
 }
 
 int64_t countAllocations() {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/base/camera/camera_motion.hpp"
-#include "core/base/memory/image.hpp"
+#include "core/base/picture.hpp"
 #include "core/base/pixel.hpp"
 #include "core/motion/motion.hpp"
 
@@ -13,7 +13,7 @@
 namespace rg::objects {
 
 struct ComparedFrame {
-  ImageView<const uint8_t> luma;
+  const Picture& picture;         ///< Of which the luma is compared.
   CameraMotion camera;            ///< Since then.
   int64_t ageNs = 1, stepNs = 1;  ///< Since then, and since the previous frame; above 0.
 

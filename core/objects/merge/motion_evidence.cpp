@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/objects/merge/motion_evidence.hpp"
 
-#include "core/base/pixel.hpp"
+#include "core/objects/operations.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -9,21 +9,82 @@
 namespace rg::objects {
 namespace {
 
-constexpr int kStep = 4;                  // Pixels between samples.
-constexpr int kAlike = 16;                // Grey levels by which a sample may have changed.
 constexpr int64_t kMost = kGainUnit;      // Of a pixel's gain.
 constexpr int64_t kHalfNs = 100'000'000;  // That leave half of it.
 
-Size gridOf(Size frame) {
-  return {(frame.width + kStep - 1) / kStep, (frame.height + kStep - 1) / kStep};
+/// What is left of `unit` after so long.
+int fade(int unit, int64_t ns) {
+  return static_cast<int>(unit * kHalfNs / (kHalfNs + std::min(ns, 1000 * kHalfNs)));
 }
 
-/// What is left of `unit` after so long.
-int64_t fade(int64_t unit, int64_t ns) {
-  return unit * kHalfNs / (kHalfNs + std::min(ns, 1000 * kHalfNs));
-}
+/// What is asked of each sample, found once.
+struct KnownPixels {
+  ImageView<const uint8_t> now, before;
+  ImageView<const int16_t> gains;
+  int left;
+
+  explicit KnownPixels(const KnownEvidence& known)
+      : now(known.motion.graph->picture->luma()),
+        before(known.previous.luma()),
+        gains(known.gains),
+        left(known.left) {}
+
+  /// What the sample at p takes over.
+  [[nodiscard]] int16_t carriedTo(Point p, const motion::RegionMotion& m) const {
+    const Point from = cameFrom(p, m);
+    if (!boundsOf(now.size).contains(from)) return 0;
+    if (!showsTheSame(now.at(p.x, p.y), before.at(from.x, from.y))) return 0;
+    const Point sample = sampleAt(from, gains.size);
+    return fadedGain(gains.at(sample.x, sample.y), left);
+  }
+};
 
 }  // namespace
+
+void carryEvidence(const KnownEvidence& known, const Executor& executor,
+                   const CarriedEvidence& carried) {
+  const segmentation::Labels& labels = *known.motion.graph->labels;
+  const Size grid = carried.gains.size();
+  const ImageView<int16_t> gains = carried.gains;
+  const KnownPixels pixels(known);
+  executor.forRows(grid.height, [&](int begin, int end) {
+    for (int v = begin; v < end; ++v) {
+      const int y = v * kEvidenceStep;
+      const uint16_t* ids = labels.ids.row(y);
+      for (int u = 0; u < grid.width; ++u) {
+        const int x = u * kEvidenceStep;
+        const auto label = segmentation::RegionLabel::ofNumber(ids[x]);
+        gains.at(u, v) =
+            label ? pixels.carriedTo({x, y}, known.motion.regions[label.index()]) : int16_t{0};
+      }
+    }
+  });
+  for (int v = 0; v < grid.height; ++v) {
+    const uint16_t* ids = labels.ids.row(v * kEvidenceStep);
+    for (int u = 0; u < grid.width; ++u) {
+      const auto label = segmentation::RegionLabel::ofNumber(ids[u * kEvidenceStep]);
+      if (!label) continue;
+      carried.sums[label.index()] += gains.at(u, v);
+      ++carried.samples[label.index()];
+    }
+  }
+}
+
+void addEvidence(const graph::Graph& graph, std::span<const int16_t> density,
+                 const Image<int16_t>& gains, const Executor& executor, Image<int16_t>& sum) {
+  const ImageView<int16_t> to = sum;
+  executor.forRows(to.height(), [&](int begin, int end) {
+    for (int v = begin; v < end; ++v) {
+      const uint16_t* ids = graph.labels->ids.row(v * kEvidenceStep);
+      const int16_t* from = gains.row(v);
+      int16_t* row = to.row(v);
+      for (int u = 0; u < to.width(); ++u) {
+        const auto label = segmentation::RegionLabel::ofNumber(ids[u * kEvidenceStep]);
+        row[u] = label ? gainWith(from[u], density[label.index()]) : from[u];
+      }
+    }
+  });
+}
 
 void MotionEvidence::reset() {
   frame_ = {};
@@ -31,59 +92,28 @@ void MotionEvidence::reset() {
   carried_.clear();
 }
 
-void MotionEvidence::carry(const motion::Motion& motion, ImageView<const uint8_t> previous,
-                           int64_t stepNs, const Executor& executor) {
+void MotionEvidence::carry(const motion::Motion& motion, const Picture* previous, int64_t stepNs,
+                           Operations& operations) {
   const size_t count = motion.regions.size();
   carried_.assign(count, 0);
-  const Size grid = gridOf(motion.size);
-  std::swap(now_, before_);
-  now_.resize(grid);
-  now_.fill(0);
-  const bool hadAny = std::exchange(hasAny_, false);
-  if (std::exchange(frame_, motion.size) != motion.size || previous.size != motion.size) return;
-  if (!hadAny) return;
-  const graph::Graph& graph = *motion.graph;
-  const ImageView<const uint8_t> luma = graph.picture->luma();
-  const int64_t left = fade(256, stepNs);
-  executor.forRows(grid.height, [&](int begin, int end) {
-    for (int v = begin; v < end; ++v) {
-      const int y = v * kStep;
-      const uint16_t* ids = graph.labels->ids.row(y);
-      for (int u = 0; u < grid.width; ++u) {
-        const int x = u * kStep;
-        const auto label = segmentation::RegionLabel::ofNumber(ids[x]);
-        if (!label) continue;
-        const motion::RegionMotion& m = motion.regions[label.index()];
-        const int px = x - static_cast<int>(divideRounded(m.dx, motion::kMotionUnit));
-        const int py = y - static_cast<int>(divideRounded(m.dy, motion::kMotionUnit));
-        if (px < 0 || py < 0 || px >= motion.size.width || py >= motion.size.height) continue;
-        if (absDiff(luma.row(y)[x], previous.row(py)[px]) > kAlike) continue;
-        const int pu = std::min((px + kStep / 2) / kStep, grid.width - 1);
-        const int pv = std::min((py + kStep / 2) / kStep, grid.height - 1);
-        now_.row(v)[u] = static_cast<int16_t>(before_.row(pv)[pu] * left / 256);
-      }
-    }
-  });
+  shown_.resize(evidenceGridOf(motion.size));
+  const bool isKnown = std::exchange(hasAny_, false);
+  const bool isAlike = std::exchange(frame_, motion.size) == motion.size;
+  if (!isKnown || !isAlike || previous == nullptr || previous->size() != motion.size)
+    return shown_.fill(0);
   sums_.assign(count, 0);
   samples_.assign(count, 0);
-  for (int v = 0; v < grid.height; ++v) {
-    const uint16_t* ids = graph.labels->ids.row(v * kStep);
-    for (int u = 0; u < grid.width; ++u) {
-      const auto label = segmentation::RegionLabel::ofNumber(ids[u * kStep]);
-      if (!label) continue;
-      sums_[label.index()] += now_.row(v)[u];
-      ++samples_[label.index()];
-    }
-  }
+  operations.carryEvidence({motion, *previous, known_, fade(256, stepNs)},
+                           {shown_, sums_, samples_});
   for (size_t i = 0; i < count; ++i)
     if (sums_[i] > 0) {
-      carried_[i] = sums_[i] * int64_t{graph.regions[i].areaPx} / samples_[i];
+      carried_[i] = sums_[i] * int64_t{motion.graph->regions[i].areaPx} / samples_[i];
       hasAny_ = true;
     }
 }
 
 void MotionEvidence::add(const motion::Motion& motion, std::span<const OwnMotion> own,
-                         const Executor& executor) {
+                         Operations& operations) {
   const graph::Graph& graph = *motion.graph;
   density_.clear();
   for (size_t i = 0; i < own.size(); ++i)
@@ -91,16 +121,8 @@ void MotionEvidence::add(const motion::Motion& motion, std::span<const OwnMotion
         own[i].gain / std::max<int64_t>(graph.regions[i].areaPx, 1), -kMost, kMost)));
   hasAny_ |= std::any_of(density_.begin(), density_.end(), [](int16_t gain) { return gain > 0; });
   if (!hasAny_) return;
-  executor.forRows(now_.height(), [&](int begin, int end) {
-    for (int v = begin; v < end; ++v) {
-      const uint16_t* ids = graph.labels->ids.row(v * kStep);
-      int16_t* row = now_.row(v);
-      for (int u = 0; u < now_.width(); ++u)
-        if (const auto label = segmentation::RegionLabel::ofNumber(ids[u * kStep]))
-          row[u] =
-              static_cast<int16_t>(std::clamp<int64_t>(row[u] + density_[label.index()], 0, kMost));
-    }
-  });
+  known_.resize(shown_.size());
+  operations.addEvidence(graph, density_, shown_, known_);
 }
 
 }  // namespace rg::objects

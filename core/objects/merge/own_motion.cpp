@@ -2,8 +2,7 @@
 #include "core/objects/merge/own_motion.hpp"
 
 #include "core/base/pixel.hpp"
-#include "core/objects/merge/region_comparison.hpp"
-#include "core/simd/base/motion_rows.hpp"
+#include "core/objects/operations.hpp"
 
 #include <algorithm>
 
@@ -29,36 +28,13 @@ using Trial = OwnMotionScratch::Trial;
 struct Inputs {
   const motion::Motion& motion;
   const ComparedFrame& compared;
-  const Executor& executor;
   const OwnMotionRules& rules;
+  Operations& operations;
 };
 
 Point inPixels(Point motion) {
   return {static_cast<int>(divideRounded(motion.x, motion::kMotionUnit)),
           static_cast<int>(divideRounded(motion.y, motion::kMotionUnit))};
-}
-
-/// Calls visit(first pixel, count, label) for all that the movers covered in the previous frame.
-template <class Visit>
-void forCovered(const Inputs& in, const std::vector<OwnMotion>& own, OwnMotionScratch& s,
-                const Visit& visit) {
-  const graph::Graph& graph = *in.motion.graph;
-  in.executor.forRows(graph.size.height, [&](int begin, int end) {
-    for (size_t i = 0; i < own.size(); ++i) {
-      if (s.moves[i] == 0) continue;
-      const Point shift = own[i].shift;
-      const auto runs = graph.runs.of(i);
-      auto run = std::lower_bound(runs.begin(), runs.end(), begin + shift.y,
-                                  [](const Run& r, int y) { return r.y < y; });
-      for (; run != runs.end() && run->y < end + shift.y; ++run) {
-        const int first = std::max(run->begin - shift.x, 0);
-        const int last = std::min(run->end - shift.x, graph.size.width);
-        if (first < last)
-          visit(s.hidden.row(run->y - shift.y) + first, last - first,
-                RegionLabel::ofIndex(i).number());
-      }
-    }
-  });
 }
 
 /// So many rows are left out that the others hold no more than kMostCompared pixels.
@@ -82,19 +58,11 @@ bool triesAny(const OwnMotionScratch& s) {
 void measure(const Inputs& in, const std::vector<OwnMotion>& own, OwnMotionScratch& s) {
   limitWork(*in.motion.graph, s);
   s.hidesAny = movesAny(s);
-  if (s.hidesAny) forCovered(in, own, s, rg::simd::raiseRow);
-  in.executor.forEach(static_cast<int>(s.trials.size()), [&](int i) {
-    const auto region = static_cast<size_t>(i);
-    if (s.trials[region].shift != Point{}) compareRegion(in.motion, region, s);
-  });
+  in.operations.compareRegions({in.compared, in.motion, own}, s);
   uint64_t pixels = 0;
   for (const Trial& trial : s.trials) pixels += trial.seen;
   s.mostPixels = std::max(s.mostPixels, pixels);
   ++s.rounds;
-  if (!s.hidesAny) return;
-  forCovered(in, own, s, [](uint16_t* hidden, int count, uint16_t) {
-    std::fill_n(hidden, count, segmentation::kNoRegion);
-  });
 }
 
 /// How much a pixel differs from what explains it, over all that is tried.
@@ -183,9 +151,9 @@ void clearOwnMotion(size_t regions, OwnMotionScratch& s, std::vector<OwnMotion>&
 }
 
 void findOwnMotion(const motion::Motion& motion, const ComparedFrame& compared,
-                   const OwnMotionRules& rules, const Executor& executor, OwnMotionScratch& s,
+                   const OwnMotionRules& rules, Operations& operations, OwnMotionScratch& s,
                    std::vector<OwnMotion>& own) {
-  const Inputs in{motion, compared, executor, rules};
+  const Inputs in{motion, compared, rules, operations};
   const size_t count = motion.regions.size();
   s.trials.assign(count, {});
   s.mostPixels = 0;
@@ -196,13 +164,7 @@ void findOwnMotion(const motion::Motion& motion, const ComparedFrame& compared,
     else
       s.trials[i].shift = ownShift(in, i);
   if (!triesAny(s)) return;
-  if (s.hidden.size() != motion.size) {
-    s.hidden.resize(motion.size);
-    s.hidden.fill(segmentation::kNoRegion);
-  }
-  s.expected.resize(motion.size);
-  s.shown.resize(static_cast<size_t>(motion.size.height));
-  warpByCamera(compared.luma, compared.camera, executor, s.expected, s.shown);
+  operations.expectFrame(compared, s);
   for (int round = 0; round < kOwnRounds; ++round) {
     measure(in, own, s);
     measureNoise(s);

@@ -20,7 +20,6 @@
 #pragma once
 
 #include "core/base/camera/camera_warp.hpp"
-#include "core/base/memory/executor.hpp"
 #include "core/base/memory/image.hpp"
 #include "core/motion/motion.hpp"
 #include "core/objects/merge/compared_frame.hpp"
@@ -32,6 +31,8 @@
 #include <vector>
 
 namespace rg::objects {
+
+class Operations;
 
 /// What speaks for a region's moving otherwise than the camera.
 struct OwnMotion {
@@ -55,11 +56,11 @@ struct OwnMotionScratch {
     Sums sums;          ///< Of the bands that are not left out.
     uint64_t seen = 0;  ///< Pixels of all bands.
   };
-  Image<uint8_t> expected;        ///< The earlier frame as the camera's motion moves it,
-  std::vector<ShownRange> shown;  ///< and of each row the columns that it shows.
-  Image<uint16_t> hidden;         ///< Its pixels that a mover covered: the label of that, else 0;
-                                  ///< all 0 between measurements.
-  std::vector<uint8_t> moves;     ///< Of each region, the guess.
+  Image<uint8_t> expected;     ///< The earlier frame as the camera's motion moves it,
+  Image<ShownRange> shown;     ///< and of each row the columns that it shows, in a row of these.
+  Image<uint16_t> hidden;      ///< Its pixels that a mover covered: the label of that, else 0;
+                               ///< all 0 between measurements.
+  std::vector<uint8_t> moves;  ///< Of each region, the guess.
   std::vector<Trial> trials;
   struct Surroundings {
     int64_t hold = 0;      ///< U2 and U3 of the arcs to what moves, less those to what does not.
@@ -94,7 +95,7 @@ void clearOwnMotion(size_t regions, OwnMotionScratch& scratch, std::vector<OwnMo
 /// that moves in parts, or of which the camera's motion was not found), some rows of each region
 /// stand for all.
 void findOwnMotion(const motion::Motion& motion, const ComparedFrame& compared,
-                   const OwnMotionRules& rules, const Executor& executor, OwnMotionScratch& scratch,
+                   const OwnMotionRules& rules, Operations& operations, OwnMotionScratch& scratch,
                    std::vector<OwnMotion>& own);
 
 }  // namespace rg::objects

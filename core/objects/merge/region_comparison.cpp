@@ -6,13 +6,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
+#include <cstddef>
+#include <cstdint>
 
 namespace rg::objects {
 namespace {
 
 constexpr int kBands = OwnMotionScratch::kBands;
-constexpr size_t kLeftOut = 2;
 constexpr int kShortRun = 8;  // Pixels: of fewer, choosing the instruction set takes longest.
 
 using Sums = OwnMotionScratch::Sums;
@@ -45,30 +45,6 @@ void forVisible(const uint16_t* hidden, ShownRange columns, const IsHiding& isHi
   }
 }
 
-/// Adds up the bands of a region but for the neighbours that gain most.
-Sums withoutBest(const std::array<Sums, kBands>& bands) {
-  const auto sumOf = [](auto first, auto last) {
-    Sums sum;
-    for (auto band = first; band != last; ++band) {
-      sum.still += band->still;
-      sum.moved += band->moved;
-      sum.pixels += band->pixels;
-    }
-    return sum;
-  };
-  Sums best;
-  int64_t most = INT64_MIN;
-  for (auto band = bands.begin(); band + kLeftOut <= bands.end(); ++band) {
-    const Sums sum = sumOf(band, band + kLeftOut);
-    const auto gain = static_cast<int64_t>(sum.still - sum.moved);
-    if (gain > most) best = sum;
-    most = std::max(most, gain);
-  }
-  Sums all = sumOf(bands.begin(), bands.end());
-  if (best.pixels == all.pixels) return all;
-  return {all.still - best.still, all.moved - best.moved, all.pixels - best.pixels};
-}
-
 /// A region, compared where it can be with and without its shift.
 class Comparison {
  public:
@@ -80,9 +56,9 @@ class Comparison {
         label_(segmentation::RegionLabel::ofIndex(region)),
         shift_(s.trials[region].shift),
         box_(graph_.regions[region].box),
-        isAcross_(std::abs(shift_.x) >= std::abs(shift_.y)) {
+        isAcross_(hasRowBands(shift_)) {
     for (int band = 0; band <= kBands; ++band)
-      bandAt_[static_cast<size_t>(band)] = box_.x + band * box_.width / kBands;
+      bandAt_[static_cast<size_t>(band)] = bandBegin(band, box_);
   }
 
   [[nodiscard]] const std::array<Sums, kBands>& run() {
@@ -98,25 +74,20 @@ class Comparison {
   void beginRow(int y) {
     y_ = y;
     const int from = y - shift_.y;
-    isCompared_ = from >= 0 && from < luma_.height() && (y - box_.y) % s_.everyRow == 0;
+    isCompared_ = from >= 0 && from < luma_.height() && isComparedRow(y, box_, s_.everyRow);
     if (!isCompared_) return;
-    // Pixels that the previous frame shows both with and without the shift.
-    const ShownRange& still = s_.shown[static_cast<size_t>(y)];
-    const ShownRange& moved = s_.shown[static_cast<size_t>(from)];
-    columns_ = {std::max(still.first, moved.first + shift_.x),
-                std::min(still.last, moved.last + shift_.x)};
+    const ShownRange* shown = s_.shown.row(0);
+    columns_ = comparedColumns(shown[y], shown[from], shift_.x);
     now_ = luma_.row(y);
     still_ = s_.expected.row(y);
     moved_ = s_.expected.row(from);
     hidden_ = s_.hidesAny ? s_.hidden.row(y) : nullptr;
-    if (isAcross_) band_ = kBands * (y - box_.y) / box_.height;
+    if (isAcross_) band_ = bandOfRow(y, box_);
   }
 
   void addRun(const ShownRange& seen) {
     if (hidden_ == nullptr) return addSpan(seen.first, seen.last);
-    const auto isHiding = [&](uint16_t by) {
-      return by != segmentation::kNoRegion && by != label_.number();
-    };
+    const auto isHiding = [&](uint16_t by) { return hidesFrom(label_.number(), by); };
     forVisible(hidden_, seen, isHiding, [&](int first, int last) { addSpan(first, last); });
   }
 
@@ -157,15 +128,55 @@ class Comparison {
   const uint16_t* hidden_ = nullptr;
 };
 
-}  // namespace
-
+/// Fills in the sums of a region's trial.
 void compareRegion(const motion::Motion& motion, size_t region, OwnMotionScratch& s) {
   Comparison comparison(motion, region, s);
   const std::array<Sums, kBands>& bands = comparison.run();
   OwnMotionScratch::Trial& trial = s.trials[region];
-  trial.seen = 0;
-  for (const Sums& band : bands) trial.seen += band.pixels;
-  trial.sums = withoutBest(bands);
+  trial.seen = sumOfBands(bands.data(), kBands).pixels;
+  trial.sums = sumWithoutBest(bands.data());
+}
+
+/// Calls visit(first pixel, count, label) for all that the movers covered in the earlier frame.
+template <class Visit>
+void forCovered(const graph::Graph& graph, std::span<const OwnMotion> own, const Executor& executor,
+                OwnMotionScratch& s, const Visit& visit) {
+  executor.forRows(graph.size.height, [&](int begin, int end) {
+    for (size_t i = 0; i < own.size(); ++i) {
+      if (s.moves[i] == 0) continue;
+      const Point shift = own[i].shift;
+      const auto runs = graph.runs.of(i);
+      auto run = std::lower_bound(runs.begin(), runs.end(), begin + shift.y,
+                                  [](const Run& r, int y) { return r.y < y; });
+      for (; run != runs.end() && run->y < end + shift.y; ++run) {
+        const int first = std::max(run->begin - shift.x, 0);
+        const int last = std::min(run->end - shift.x, graph.size.width);
+        if (first < last)
+          visit(s.hidden.row(run->y - shift.y) + first, last - first,
+                segmentation::RegionLabel::ofIndex(i).number());
+      }
+    }
+  });
+}
+
+}  // namespace
+
+void compareRegions(const motion::Motion& motion, std::span<const OwnMotion> own,
+                    const Executor& executor, OwnMotionScratch& s) {
+  if (s.hidden.size() != motion.size) {
+    s.hidden.resize(motion.size);
+    s.hidden.fill(segmentation::kNoRegion);
+  }
+  const graph::Graph& graph = *motion.graph;
+  if (s.hidesAny) forCovered(graph, own, executor, s, simd::raiseRow);
+  executor.forEach(static_cast<int>(s.trials.size()), [&](int i) {
+    const auto region = static_cast<size_t>(i);
+    if (s.trials[region].shift != Point{}) compareRegion(motion, region, s);
+  });
+  if (!s.hidesAny) return;
+  forCovered(graph, own, executor, s, [](uint16_t* hidden, int count, uint16_t) {
+    std::fill_n(hidden, count, segmentation::kNoRegion);
+  });
 }
 
 }  // namespace rg::objects

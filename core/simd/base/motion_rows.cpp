@@ -10,13 +10,12 @@ HWY_BEFORE_NAMESPACE();
 namespace rg::simd::HWY_NAMESPACE {
 namespace {
 
-uint16_t mean(int a, int b, int c) {
-  return static_cast<uint16_t>((a + 2 * b + c + 2) >> 2);
-}
-
 uint8_t smoothed(const ThreeRows& rows, int left, int at, int right) {
-  const auto across = [&](const uint8_t* row) { return mean(row[left], row[at], row[right]); };
-  return static_cast<uint8_t>(mean(across(rows.above), across(rows.at), across(rows.below)));
+  const auto across = [&](const uint8_t* row) {
+    return binomialMean(row[left], row[at], row[right]);
+  };
+  return static_cast<uint8_t>(
+      binomialMean(across(rows.above), across(rows.at), across(rows.below)));
 }
 
 void smoothRow(const ThreeRows& rows, int count, uint8_t* HWY_RESTRICT to) {

@@ -10,6 +10,11 @@
 
 namespace rg::simd {
 
+/// Weights 1 2 1, rounded.
+[[nodiscard]] constexpr uint16_t binomialMean(int a, int b, int c) {
+  return static_cast<uint16_t>((a + 2 * b + c + 2) >> 2);
+}
+
 /// to[i] = the mean of above[i], at[i] and below[i], weights 1 2 1, of each of which the mean with
 /// its left and right neighbours is taken before, weights 1 2 1, too. Means are rounded; the row's
 /// ends repeat.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/objects/movers.hpp"
+#include "core/objects/operations.hpp"
 #include "tests/core/scenes.hpp"
 #include "tests/core/simd_targets.hpp"
 
@@ -49,6 +50,7 @@ struct SlowScene {
 /// Gains of the ground and the square in the last of so many frames.
 std::vector<int64_t> gainsAfter(int frames, int64_t stepNs, const Executor& executor) {
   const SlowScene scene;
+  objects::Operations operations(executor);
   objects::Movers movers;
   for (int frame = 0; frame < frames; ++frame) {
     const motion::Motion motion = scene.motion(frame);
@@ -56,8 +58,8 @@ std::vector<int64_t> gainsAfter(int frames, int64_t stepNs, const Executor& exec
     objects::weighArcs(motion, {}, {}, arcs);
     const std::vector<objects::TrackIndex> expected(motion.regions.size());
     const objects::MoverRules rules{arcs, {}, expected, {}, stepNs, kPerPixelNs};
-    movers.find(motion, rules, executor);
-    movers.remember(motion, rules, executor);
+    movers.find(motion, rules, operations);
+    movers.remember(motion, rules, operations);
   }
   return {movers.own()[kGround].gain, movers.own()[kSquare].gain};
 }
@@ -77,14 +79,16 @@ TEST(Movers, WhereFramesAreFewTheLastOneIsAsked) {
 
 TEST(Movers, AfterFramesOfAnotherSizeNothingIsCompared) {
   const SlowScene scene;
+  const Executor executor(1);
+  objects::Operations operations(executor);
   objects::Movers movers;
   const std::vector<objects::TrackIndex> expected(2);
   const auto find = [&](const motion::Motion& motion) {
     std::vector<objects::ArcEnergy> arcs;
     objects::weighArcs(motion, {}, {}, arcs);
     const objects::MoverRules rules{arcs, {}, expected, {}, kPerPixelNs / 6, kPerPixelNs};
-    movers.find(motion, rules, Executor(1));
-    movers.remember(motion, rules, Executor(1));
+    movers.find(motion, rules, operations);
+    movers.remember(motion, rules, operations);
   };
   for (int frame = 0; frame < 9; ++frame) find(scene.motion(frame));
   EXPECT_GT(movers.own()[kSquare].gain, 0);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/objects/merge/motion_evidence.hpp"
+#include "core/objects/operations.hpp"
 #include "tests/core/scenes.hpp"
 #include "tests/core/simd_targets.hpp"
 
@@ -45,53 +46,57 @@ std::vector<objects::OwnMotion> squareGains(int64_t ofPixel) {
 }
 
 /// That the square of frame 0 moves.
-objects::MotionEvidence evidenceOfSquare(const Executor& executor) {
+objects::MotionEvidence evidenceOfSquare(objects::Operations& operations) {
   objects::MotionEvidence evidence;
-  evidence.carry(motionOf(0), {}, 0, executor);
+  evidence.carry(motionOf(0), nullptr, 0, operations);
   EXPECT_EQ(evidence.gainOf(1), 0);
-  evidence.add(motionOf(0), squareGains(kGain), executor);
+  evidence.add(motionOf(0), squareGains(kGain), operations);
   return evidence;
 }
 
 TEST(MotionEvidence, GoesAlongWithWhatItWasFoundOfAndFades) {
   test::forEachTargetAndThreads([&](const std::shared_ptr<const Executor>& executor) {
-    objects::MotionEvidence evidence = evidenceOfSquare(*executor);
+    objects::Operations operations(*executor);
+    objects::MotionEvidence evidence = evidenceOfSquare(operations);
     int64_t last = kGain * 16 * 16;
     for (int frame = 1; frame < 5; ++frame) {
-      evidence.carry(motionOf(frame), pictureOf(frame - 1)->luma(), kStepNs, *executor);
+      evidence.carry(motionOf(frame), pictureOf(frame - 1).get(), kStepNs, operations);
       EXPECT_LT(evidence.gainOf(1), last);
       EXPECT_GT(evidence.gainOf(1), last / 2);
       EXPECT_EQ(evidence.gainOf(0), 0);
       last = evidence.gainOf(1);
-      evidence.add(motionOf(frame), squareGains(0), *executor);
+      evidence.add(motionOf(frame), squareGains(0), operations);
     }
   });
 }
 
 TEST(MotionEvidence, IsTakenBackByPixelsThatFollowTheGround) {
   const Executor executor(1);
-  objects::MotionEvidence evidence = evidenceOfSquare(executor);
-  evidence.carry(motionOf(1), pictureOf(0)->luma(), kStepNs, executor);
-  evidence.add(motionOf(1), squareGains(-4 * kGain), executor);
-  evidence.carry(motionOf(2), pictureOf(1)->luma(), kStepNs, executor);
+  objects::Operations operations(executor);
+  objects::MotionEvidence evidence = evidenceOfSquare(operations);
+  evidence.carry(motionOf(1), pictureOf(0).get(), kStepNs, operations);
+  evidence.add(motionOf(1), squareGains(-4 * kGain), operations);
+  evidence.carry(motionOf(2), pictureOf(1).get(), kStepNs, operations);
   EXPECT_EQ(evidence.gainOf(1), 0);
 }
 
 TEST(MotionEvidence, IsNotTakenOverByWhatLooksOtherwise) {
   const Executor executor(1);
-  objects::MotionEvidence evidence = evidenceOfSquare(executor);
-  evidence.carry(motionOf(1, 90), pictureOf(0)->luma(), kStepNs, executor);
+  objects::Operations operations(executor);
+  objects::MotionEvidence evidence = evidenceOfSquare(operations);
+  evidence.carry(motionOf(1, 90), pictureOf(0).get(), kStepNs, operations);
   EXPECT_EQ(evidence.gainOf(1), 0);
 }
 
 TEST(MotionEvidence, AChangeOfSizeOrSceneForgetsIt) {
   const Executor executor(1);
-  objects::MotionEvidence evidence = evidenceOfSquare(executor);
-  evidence.carry(motionOf(1), {}, kStepNs, executor);
+  objects::Operations operations(executor);
+  objects::MotionEvidence evidence = evidenceOfSquare(operations);
+  evidence.carry(motionOf(1), nullptr, kStepNs, operations);
   EXPECT_EQ(evidence.gainOf(1), 0);
-  evidence.add(motionOf(1), squareGains(kGain), executor);
+  evidence.add(motionOf(1), squareGains(kGain), operations);
   evidence.reset();
-  evidence.carry(motionOf(2), pictureOf(1)->luma(), kStepNs, executor);
+  evidence.carry(motionOf(2), pictureOf(1).get(), kStepNs, operations);
   EXPECT_EQ(evidence.gainOf(1), 0);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/base/pixel.hpp"
 #include "core/objects/merge/own_motion.hpp"
+#include "core/objects/operations.hpp"
 #include "tests/core/scenes.hpp"
 #include "tests/core/simd_targets.hpp"
 
@@ -61,7 +62,7 @@ std::vector<objects::ArcEnergy> energiesOf(const motion::Motion& motion) {
 
 /// The frame before.
 objects::ComparedFrame since(const Picture& previous, const motion::Motion& motion) {
-  return {previous.luma(), motion.camera};
+  return {previous, motion.camera};
 }
 
 struct Found {
@@ -78,7 +79,9 @@ Found searchFor(const Picture& previous, std::shared_ptr<const segmentation::Lab
   std::vector<objects::OwnMotion> own;
   objects::clearOwnMotion(motion.regions.size(), scratch, own);
   const std::vector<objects::ArcEnergy> arcs = energiesOf(motion);
-  objects::findOwnMotion(motion, since(previous, motion), {arcs, {}, expected, steps}, Executor(1),
+  const Executor executor(1);
+  objects::Operations operations(executor);
+  objects::findOwnMotion(motion, since(previous, motion), {arcs, {}, expected, steps}, operations,
                          scratch, own);
   return {scratch.moves, scratch.rounds};
 }
@@ -203,7 +206,9 @@ TEST(OwnMotion, WorkIsBoundedWhereAllOfALargeFrameMoves) {
   objects::OwnMotionScratch scratch;
   std::vector<objects::OwnMotion> own;
   objects::clearOwnMotion(motion.regions.size(), scratch, own);
-  objects::findOwnMotion(motion, since(*previous, motion), {arcs, {}, {}, {}}, Executor(1), scratch,
+  const Executor executor(1);
+  objects::Operations operations(executor);
+  objects::findOwnMotion(motion, since(*previous, motion), {arcs, {}, {}, {}}, operations, scratch,
                          own);
   EXPECT_GT(scratch.mostPixels, 200'000u);
   EXPECT_LT(scratch.mostPixels, 600'000u);
@@ -413,11 +418,12 @@ TEST(OwnMotion, IsThatOfEachPixelOnEveryTargetAndNumberOfThreads) {
                                        [](const objects::OwnMotion& own) { return own.gain > 0; }));
     const std::vector<objects::ArcEnergy> arcs = energiesOf(motion);
     test::forEachTargetAndThreads([&](const std::shared_ptr<const Executor>& executor) {
+      objects::Operations operations(*executor);
       objects::OwnMotionScratch scratch;
       std::vector<objects::OwnMotion> own;
       for (int frame = 0; frame < 2; ++frame) {
         objects::clearOwnMotion(motion.regions.size(), scratch, own);
-        objects::findOwnMotion(motion, since(*previous, motion), {arcs, {}, {}, {}}, *executor,
+        objects::findOwnMotion(motion, since(*previous, motion), {arcs, {}, {}, {}}, operations,
                                scratch, own);
       }
       EXPECT_EQ(own, expected);
