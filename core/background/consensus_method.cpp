@@ -74,6 +74,7 @@ class ConsensusMethod final : public MethodModel {
   BitMask ghosts_;
   ShownModel shown_;
   BitMask near_;  ///< The foreground and two pixels round it.
+  BitMask previousNear_;
   BitMask dark_, shadow_;
   FrameCount frame_;
   int contrast_ = kFullContrast;
@@ -90,7 +91,8 @@ class ConsensusMethod final : public MethodModel {
 
 void ConsensusMethod::prepare(const Picture& picture) {
   const Size size = picture.size();
-  for (BitMask* mask : {&previousRaw_, &mask_, &ghosts_, &dark_, &shadow_}) mask->resize(size);
+  for (BitMask* mask : {&previousRaw_, &mask_, &ghosts_, &near_, &previousNear_, &dark_, &shadow_})
+    mask->resize(size);
   background::prepare(size, picture.isGrey() ? 1 : 3, model_);
   background::prepare(size, picture.isGrey() ? 1 : 3, still_);
 }
@@ -99,6 +101,7 @@ void ConsensusMethod::start(const MethodJob& job, Foreground& out) {
   followContrast(job);
   job.on.fillFrom(smooth_, model_);
   previousRaw_.clear();
+  near_.clear();
   clear(still_);
   frame_ = {};
   shift_ = {};
@@ -307,14 +310,22 @@ void ConsensusMethod::findShadow(const MethodJob& job) {
   job.on.keepCastShadows(mask_, shadow_);
 }
 
+/// Unrest is forgotten by time, but not within fewer frames than a flip needs to be seen again:
+/// what sways does not sway less often from frame to frame if there are few of them.
+uint32_t calmPeriodOf(const FrameClock& clock) {
+  constexpr int64_t kLeast = 8, kMost = 4096;
+  return static_cast<uint32_t>(std::clamp(clock.frames(0.32), kLeast, kMost));
+}
+
 void ConsensusMethod::learnFrame(const MethodJob& job) {
   const auto usual =
       std::clamp<int64_t>(job.clock.frames(job.params.learningTimeS) / kSamples, 2, 4096);
-  const ConsensusRate rate{frame_.value(), isFirst(job) ? 3 : static_cast<int>(usual),
-                           isFirst(job)};
+  const ConsensusRate rate{frame_.value(), isFirst(job) ? 3 : static_cast<int>(usual), isFirst(job),
+                           calmPeriodOf(job.clock)};
+  std::swap(near_, previousNear_);
   job.on.thicken(mask_, 2, near_);
-  job.on.learn(smooth_, {mask_, isFirst(job) ? mask_ : near_, verdicts_.raw, previousRaw_}, rate,
-               model_);
+  const BitMask& near = isFirst(job) ? mask_ : near_;
+  job.on.learn(smooth_, {mask_, near, verdicts_.raw, previousNear_, previousRaw_}, rate, model_);
   std::swap(verdicts_.raw, previousRaw_);
 }
 
