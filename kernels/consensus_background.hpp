@@ -29,7 +29,7 @@ struct VerdictTargets {
 
 /// The masks that a frame is learnt with, as in rg::background::LearntFrame.
 struct LearntFrame {
-  BitView foreground, near, raw, previousRaw;
+  BitView foreground, near, raw, previousNear, previousRaw;
 };
 
 void smooth(const Planes& picture, const PlaneTargets& out, Stream stream);

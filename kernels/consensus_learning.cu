@@ -17,7 +17,7 @@ struct Lesson {
   LearntFrame seen;
   ModelView model;
   rg::background::LearningTurns turns;
-  uint32_t frame, noisePeriod;
+  uint32_t frame, noisePeriod, calmPeriod;
   bool isFirst;
 };
 
@@ -42,8 +42,9 @@ __device__ void followUnrest(const Lesson& lesson, Point p, uint32_t turn) {
   uint8_t& unrest = lesson.model.unrest.at(p.x, p.y);
   const bool hasFlipped =
       isSet(lesson.seen.raw, p.x, p.y) != isSet(lesson.seen.previousRaw, p.x, p.y);
-  if (!lesson.isFirst && hasFlipped) unrest = rg::background::raisedUnrest(unrest);
-  if (turn % rg::background::kCalmPeriod == 0) unrest = rg::background::calmedUnrest(unrest);
+  if (!lesson.isFirst && hasFlipped)
+    unrest = rg::background::raisedUnrest(unrest, isSet(lesson.seen.previousNear, p.x, p.y));
+  if (turn % lesson.calmPeriod == 0) unrest = rg::background::calmedUnrest(unrest);
 }
 
 /// The pixel remembers what it sees at `offset`, if it is drawn and that is background.
@@ -80,12 +81,13 @@ void learn(const Planes& picture, const LearntFrame& seen,
            const rg::background::ConsensusRate& rate, const ModelView& model, Stream stream) {
   const uint32_t noisePeriod =
       rate.isFirst ? rg::background::kFirstNoisePeriod : rg::background::kNoisePeriod;
-  const Lesson lesson{picture,    seen,        model,       rg::background::turnsOf(rate.interval),
-                      rate.frame, noisePeriod, rate.isFirst};
+  const Lesson lesson{
+      picture,    seen,        model,           rg::background::turnsOf(rate.interval),
+      rate.frame, noisePeriod, rate.calmPeriod, rate.isFirst};
   const auto pixels = static_cast<double>(model.size.area());
   // Masks and unrest of all pixels; the samples of the rows whose noise has its turn, and what is
   // remembered, in sectors of 32 bytes.
-  const double bytes = pixels * (0.5 + 0.25 + (kSamples + 1.0) * model.channels / noisePeriod +
+  const double bytes = pixels * (0.625 + 0.25 + (kSamples + 1.0) * model.channels / noisePeriod +
                                  8.0 * model.channels / rate.interval);
   start(launchOver("learn", model.size, 1, {bytes, 20 * pixels}), stream, learnPixels, lesson);
 }

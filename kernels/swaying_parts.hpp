@@ -11,8 +11,9 @@
 namespace rg::gpu::background {
 
 struct SwayView {
-  BitTarget swaying;
+  BitTarget restless, known;
   ComponentsView parts;
+  rg::background::PartCount* counts;  ///< Of as many parts as there may be.
 };
 void dropSwaying(const Planes& picture, const ModelView& model,
                  const rg::background::Tolerance& tolerance, const SwayView& scratch,

@@ -30,7 +30,8 @@ constexpr uint32_t kOtherSceneShare = 192;  ///< Of 256: foreground that no obje
 /// Of 256: share of the difference that a shift of the camera explains, where it stood still and
 /// where it sways, so that a shift is more likely than none.
 constexpr uint32_t kPushedShare = 64, kSwayingShare = 32;
-constexpr int kMostSteps = 4;  ///< From where it was last, three pixels each.
+constexpr int kMostSteps = 4;         ///< From where it was last, three pixels each.
+constexpr uint32_t kEver = 1u << 30;  ///< Frames: nobody has told of a push yet.
 
 constexpr int kDarkLevel = 12, kBrightLevel = 18;  ///< Grey levels: from where, and until where.
 
@@ -74,6 +75,7 @@ class ConsensusMethod final : public MethodModel {
   BitMask ghosts_;
   ShownModel shown_;
   BitMask near_;  ///< The foreground and two pixels round it.
+  BitMask previousNear_;
   BitMask dark_, shadow_;
   FrameCount frame_;
   int contrast_ = kFullContrast;
@@ -83,14 +85,15 @@ class ConsensusMethod final : public MethodModel {
   Point shift_;                   ///< The camera's, from the model.
   SmoothPicture spare_;           ///< For shifting.
   bool sways_ = false;            ///< The camera was off its place within the last second.
-  uint32_t calmFrames_ = 0;       ///< Since the camera was off its place.
+  uint32_t calmFrames_ = kEver;   ///< Since the camera was off its place.
   uint32_t offFrames_ = 0;        ///< It has been off by the same shift.
   uint32_t elsewhereFrames_ = 0;  ///< The picture has differed everywhere.
 };
 
 void ConsensusMethod::prepare(const Picture& picture) {
   const Size size = picture.size();
-  for (BitMask* mask : {&previousRaw_, &mask_, &ghosts_, &dark_, &shadow_}) mask->resize(size);
+  for (BitMask* mask : {&previousRaw_, &mask_, &ghosts_, &near_, &previousNear_, &dark_, &shadow_})
+    mask->resize(size);
   background::prepare(size, picture.isGrey() ? 1 : 3, model_);
   background::prepare(size, picture.isGrey() ? 1 : 3, still_);
 }
@@ -99,6 +102,7 @@ void ConsensusMethod::start(const MethodJob& job, Foreground& out) {
   followContrast(job);
   job.on.fillFrom(smooth_, model_);
   previousRaw_.clear();
+  near_.clear();
   clear(still_);
   frame_ = {};
   shift_ = {};
@@ -172,23 +176,23 @@ bool ConsensusMethod::isTooDark(const MethodJob& job, Foreground& out) {
   return true;
 }
 
-/// A camera that stood still is looked for close by; one that sways goes on from where it was, too,
-/// and is followed downhill. Where that does not end, it is no shift, but something that looks like
+/// A camera that stood still is looked for close by; one that sways goes on from where it was, too.
+/// It is followed downhill. Where that does not end, it is no shift, but something that looks like
 /// one, as light on a slope of colour does.
 Point ConsensusMethod::findShift(const MethodJob& job) {
-  Shift found = job.on.findShift(smooth_, model_, {});
-  if (!sways_) return found.explains(kPushedShare) ? found.by : Point{};
   const Size size = smooth_.size();
-  Point centre = centreWithin(shift_ == Point{} ? found.by : shift_, size);
-  for (int i = 0; i < kMostSteps && centre != Point{}; ++i) {
-    const Shift there = job.on.findShift(smooth_, model_, centre);
-    if (there.off >= found.off) break;
+  Shift found = job.on.findShift(smooth_, model_, {});
+  const auto isBetter = [&](Point centre) {
+    const Shift there = job.on.findShift(smooth_, model_, centreWithin(centre, size));
+    if (there.off >= found.off) return false;
     found = there;
-    centre = centreWithin(found.by, size);
-  }
+    return true;
+  };
+  if (shift_ != Point{}) isBetter(shift_);
+  for (int i = 0; i < kMostSteps && found.by != Point{} && isBetter(found.by); ++i) continue;
   const int most = mostShiftPx(size);
   const bool isLost = absDiff(found.by.x, 0) == most || absDiff(found.by.y, 0) == most;
-  return !isLost && found.explains(kSwayingShare) ? found.by : Point{};
+  return !isLost && found.explains(sways_ ? kSwayingShare : kPushedShare) ? found.by : Point{};
 }
 
 /// A camera that sways sees what the model knows beside its place. The picture is put there, by
@@ -307,14 +311,22 @@ void ConsensusMethod::findShadow(const MethodJob& job) {
   job.on.keepCastShadows(mask_, shadow_);
 }
 
+/// Unrest is forgotten by time, but not within fewer frames than a flip needs to be seen again:
+/// what sways does not sway less often from frame to frame if there are few of them.
+uint32_t calmPeriodOf(const FrameClock& clock) {
+  constexpr int64_t kLeast = 8, kMost = 4096;
+  return static_cast<uint32_t>(std::clamp(clock.frames(0.32), kLeast, kMost));
+}
+
 void ConsensusMethod::learnFrame(const MethodJob& job) {
   const auto usual =
       std::clamp<int64_t>(job.clock.frames(job.params.learningTimeS) / kSamples, 2, 4096);
-  const ConsensusRate rate{frame_.value(), isFirst(job) ? 3 : static_cast<int>(usual),
-                           isFirst(job)};
+  const ConsensusRate rate{frame_.value(), isFirst(job) ? 3 : static_cast<int>(usual), isFirst(job),
+                           calmPeriodOf(job.clock)};
+  std::swap(near_, previousNear_);
   job.on.thicken(mask_, 2, near_);
-  job.on.learn(smooth_, {mask_, isFirst(job) ? mask_ : near_, verdicts_.raw, previousRaw_}, rate,
-               model_);
+  const BitMask& near = isFirst(job) ? mask_ : near_;
+  job.on.learn(smooth_, {mask_, near, verdicts_.raw, previousNear_, previousRaw_}, rate, model_);
   std::swap(verdicts_.raw, previousRaw_);
 }
 

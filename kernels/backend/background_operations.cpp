@@ -34,7 +34,6 @@ using Cpu = rg::background::Operations;
 class GpuOperations final : public Cpu, private Dispatcher {
  public:
   GpuOperations(GpuDevice& device, const Executor& executor) : Cpu(executor), Dispatcher(device) {}
-
   void smooth(const Picture& picture, SmoothPicture& out) override {
     run(
         [&] {
@@ -76,11 +75,13 @@ class GpuOperations final : public Cpu, private Dispatcher {
     run(
         [&] {
           const LearntFrame masks{on().read(seen.foreground), on().read(seen.near),
-                                  on().read(seen.raw), on().read(seen.previousRaw)};
+                                  on().read(seen.raw), on().read(seen.previousNear),
+                                  on().read(seen.previousRaw)};
           background::learn(on().read(picture), masks, rate, on().change(model), stream());
         },
         [&] { Cpu::learn(picture, seen, rate, model); }, Reads{picture}, Reads{seen.foreground},
-        Reads{seen.near}, Reads{seen.raw}, Reads{seen.previousRaw}, Changes{model});
+        Reads{seen.near}, Reads{seen.raw}, Reads{seen.previousNear}, Reads{seen.previousRaw},
+        Changes{model});
   }
   void replaceWhere(const BitMask& places, const SmoothPicture& picture,
                     ConsensusBackground& model) override {
@@ -209,7 +210,9 @@ class GpuOperations final : public Cpu, private Dispatcher {
                    const Tolerance& tolerance, BitMask& mask) override {
     run(
         [&] {
-          const SwayView view{scratchMask(mask.size()), components(mask.size())};
+          const Size size = mask.size();
+          const SwayView view{scratchMask(size), scratchMask(size), components(size),
+                              scratch().take<rg::background::PartCount>(mostRuns(size))};
           background::dropSwaying(on().read(picture), on().read(model), tolerance, view,
                                   on().change(mask), stream());
         },
@@ -219,16 +222,14 @@ class GpuOperations final : public Cpu, private Dispatcher {
   void fillHoles(BitMask& mask, uint32_t mostPx) override {
     run(
         [&] {
-          const ComponentsView found = components(mask.size());
-          background::fillHoles(on().change(mask), mostPx, found, stream());
+          background::fillHoles(on().change(mask), mostPx, components(mask.size()), stream());
         },
         [&] { Cpu::fillHoles(mask, mostPx); }, Changes{mask});
   }
   void dropSmallParts(BitMask& mask, uint32_t leastPx) override {
     run(
         [&] {
-          const ComponentsView found = components(mask.size());
-          background::dropSmallParts(on().change(mask), leastPx, found, stream());
+          background::dropSmallParts(on().change(mask), leastPx, components(mask.size()), stream());
         },
         [&] { Cpu::dropSmallParts(mask, leastPx); }, Changes{mask});
   }
@@ -305,9 +306,9 @@ class GpuOperations final : public Cpu, private Dispatcher {
           const GhostView view{scratchMask(size), components(size),
                                scratch().take<ContourSums>(mostRuns(size))};
           const Planes from = on().read(picture);
-          const BitView wanted = on().read(foreground);
-          background::findGhosts(from, on().read(model), wanted, on().change(still, from.channels),
-                                 leastAge, view, on().write(ghosts, size), stream());
+          background::findGhosts(from, on().read(model), on().read(foreground),
+                                 on().change(still, from.channels), leastAge, view,
+                                 on().write(ghosts, size), stream());
         },
         [&] { Cpu::findGhosts(picture, model, foreground, still, leastAge, ghosts); },
         Reads{picture}, Reads{model}, Reads{foreground}, Changes{still}, Writes{ghosts});
@@ -327,15 +328,15 @@ class GpuOperations final : public Cpu, private Dispatcher {
                     BitMask& moved) override {
     run(
         [&] {
-          const int64_t runs = mostRuns(foreground.size());
           constexpr int64_t kHistograms =
               int64_t{2} * rg::background::kMostDisplaced * rg::background::kColours;
-          const DisplacedView view{components(foreground.size()), scratch().take<uint32_t>(runs),
+          const DisplacedView view{components(foreground.size()),
+                                   scratch().take<uint32_t>(mostRuns(foreground.size())),
                                    scratch().take<uint32_t>(kHistograms),
                                    scratch().take<uint32_t>(rg::background::kMostDisplaced)};
-          const BitView wanted = on().read(foreground);
-          background::addDisplaced(on().read(picture), on().read(model), wanted, on().read(still),
-                                   ageOf(leastAge), view, on().change(moved), stream());
+          background::addDisplaced(on().read(picture), on().read(model), on().read(foreground),
+                                   on().read(still), ageOf(leastAge), view, on().change(moved),
+                                   stream());
         },
         [&] { Cpu::addDisplaced(picture, model, foreground, still, leastAge, moved); },
         Reads{picture}, Reads{model}, Reads{foreground}, Reads{still}, Changes{moved});

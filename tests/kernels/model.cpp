@@ -66,7 +66,8 @@ void launchCleaning(const Memory& m) {
     gpu::background::fillHoles(m.bits, pixels / 50, {}, nullptr);
   };
   gpu::background::keepMajority(m.bits, 3, 115, m.bits, nullptr);
-  gpu::background::dropSwaying(m.planes, m.model, {5, 20}, {m.bits, {}}, m.bits, nullptr);
+  gpu::background::dropSwaying(m.planes, m.model, {5, 20}, {m.bits, m.bits, {}, nullptr}, m.bits,
+                               nullptr);
   keepWhole();
   gpu::fillUnedged(m.planes.planes[0], kMostGapStep, mostGapPx(m.size), {m.bits, m.bits, {}, {}},
                    m.bits, nullptr);
@@ -98,8 +99,8 @@ void launchBackground(const Memory& m) {
   launchCleaning(m);
   launchGhosts(m);
   gpu::thicken(m.bits, 2, m.bits, nullptr);
-  gpu::background::learn(m.planes, {m.bits, m.bits, m.bits, m.bits}, {1, 16, false}, m.model,
-                         nullptr);
+  gpu::background::learn(m.planes, {m.bits, m.bits, m.bits, m.bits, m.bits}, {1, 16, false},
+                         m.model, nullptr);
   gpu::background::paintModelAt(m.bits, m.model, m.targets, nullptr);
   const background::ColourPlanes planes{m.planes.planes[0], m.planes.planes[1], m.planes.planes[2]};
   gpu::background::findShadows(planes, planes, m.bits, m.bits, nullptr);

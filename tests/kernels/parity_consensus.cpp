@@ -67,7 +67,7 @@ void parity_smoothAndJudge() {
 
 void parity_learn() {
   for (const background::ConsensusRate rate :
-       {background::ConsensusRate{16, 2, false}, {8, 3, true}, {1001, 16, false}})
+       {background::ConsensusRate{16, 2, false}, {8, 3, true}, {1001, 16, false, 38}})
     forScenes(4, [&](LearntScene scene) {
       DevicePlanes smooth(scene.smooth.planes, scene.smooth.channels);
       for (int y = 0; y < scene.model.unrest.height(); ++y)
@@ -75,10 +75,10 @@ void parity_learn() {
           scene.model.unrest.at(x, y) = static_cast<uint8_t>(hashOf(x, y, 5));
       DeviceModel model(scene.model);
       Bits mask(scene.mask), near(scene.near), raw(scene.verdicts.raw), before(scene.previousRaw);
-      gpu::background::learn(smooth, {mask, near, raw, before}, rate, model.view(), nullptr);
+      gpu::background::learn(smooth, {mask, near, raw, mask, before}, rate, model.view(), nullptr);
       background::learn(scene.smooth,
-                        {scene.mask, scene.near, scene.verdicts.raw, scene.previousRaw}, rate,
-                        oneThread(), scene.model);
+                        {scene.mask, scene.near, scene.verdicts.raw, scene.mask, scene.previousRaw},
+                        rate, oneThread(), scene.model);
       model.expect(scene.model);
     });
 }

@@ -195,12 +195,14 @@ void parity_dropSwaying() {
     for (const background::Tolerance tolerance : {background::Tolerance{0, 0}, {10, 20}})
       for (const int share : {30, 60}) {
         BitMask expected = scattered(size, share);
-        Bits there(expected), swaying(size);
+        Bits there(expected), restless(size), known(size);
         DevicePlanes smooth(scene.smooth.planes, scene.smooth.channels);
         DeviceModel model(scene.model);
         DeviceComponents parts(size);
-        gpu::background::dropSwaying(smooth, model.view(), tolerance, {swaying, parts.view()},
-                                     there, nullptr);
+        std::vector<background::PartCount> counts(parts.runs.size(), {9, 9, 9});
+        gpu::background::dropSwaying(smooth, model.view(), tolerance,
+                                     {restless, known, parts.view(), counts.data()}, there,
+                                     nullptr);
         background::SwayScratch scratch;
         background::dropSwaying(scene.smooth, scene.model, tolerance, scratch, expected);
         there.expect(expected, "without what sways");

@@ -53,7 +53,7 @@ struct LearntScene {
     previousRaw.clear();
     for (int i = 1; i <= frames; ++i) {
       if (i > 1) {
-        background::learn(smooth, {mask, near, verdicts.raw, previousRaw}, {frame, 2, false},
+        background::learn(smooth, {mask, near, verdicts.raw, mask, previousRaw}, {frame, 2, false},
                           oneThread(), model);
         std::swap(verdicts.raw, previousRaw);
       }

@@ -21,8 +21,13 @@ inline constexpr int kRestless = 24;
   return least < 160 ? 1 : least / 80;
 }
 
+/// Of the pixel's radius: 25 places are asked, of which one or another has a colour by chance.
+[[nodiscard]] constexpr int nearbyRadius(int radius) {
+  return 2 * radius / 3;
+}
+
 /// Whether the model has the pixel's colour at its place or at one of 24 round it: two of every
-/// second sample within the radius. now(channel), sample(place, sample, channel): levels.
+/// second sample within that radius. now(channel), sample(place, sample, channel): levels.
 template <class Now, class Sample>
 [[nodiscard]] constexpr bool isKnownNearby(Point p, Size size, int channels, int radius,
                                            const Now& now, const Sample& sample) {
@@ -50,12 +55,16 @@ template <class Now, class Sample>
 }
 inline constexpr uint64_t kLookedAtColumns = 0x5555555555555555;
 
-/// What they weigh together: below 0 where most of them sway.
-[[nodiscard]] constexpr uint32_t weightOf(uint32_t pixels, uint32_t swaying) {
-  return pixels - 2 * swaying;
+/// A part's pixels that are looked at.
+struct PartCount {
+  uint32_t all = 0, restless = 0, known = 0;
+};
+/// Leaves let some pixels rest.
+[[nodiscard]] constexpr bool isRestless(const PartCount& part) {
+  return 4 * uint64_t{part.restless} > part.all;
 }
-[[nodiscard]] constexpr bool sways(uint32_t weight) {
-  return static_cast<int32_t>(weight) < 0;
+[[nodiscard]] constexpr bool sways(const PartCount& part) {
+  return isRestless(part) && 2 * uint64_t{part.known} > part.all;
 }
 
 }  // namespace rg::background

@@ -5,6 +5,7 @@
 // Determinism: integers, each pixel by itself, sums that commute.
 #pragma once
 
+#include "core/background/ghosts/sway.hpp"
 #include "core/background/models/consensus_background.hpp"
 #include "core/base/bit_mask.hpp"
 #include "core/base/components.hpp"
@@ -14,18 +15,14 @@
 
 namespace rg::background {
 
-/// A part's pixels that are looked at.
-struct PartCount {
-  uint32_t all = 0, steady = 0;
-};
 struct SwayScratch {
   Components components;
   std::vector<PartCount> parts;
   std::vector<uint8_t> isChosen;
 };
 
-/// Clears 8-connected parts of which most is restless and of a colour that the model has close by
-/// (sway.hpp). A thing that passes has its own colours and lets the model rest.
+/// Clears 8-connected parts of which a quarter is restless and most has a colour that the model has
+/// close by (sway.hpp). A thing that passes has its own colours and lets the model rest.
 void dropSwaying(const SmoothPicture& picture, const ConsensusBackground& model,
                  const Tolerance& tolerance, SwayScratch& scratch, BitMask& mask);
 

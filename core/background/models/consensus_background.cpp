@@ -171,7 +171,7 @@ void raiseUnrest(const LearntFrame& seen, int y, ConsensusBackground& model) {
   for (int word = 0; word < seen.raw.wordsPerRow(); ++word) {
     const uint64_t flips = seen.raw.row(y)[word] ^ seen.previousRaw.row(y)[word];
     forSetBits(flips & ~seen.foreground.row(y)[word], word * kWordColumns,
-               [&](int x) { unrest[x] = raisedUnrest(unrest[x]); });
+               [&](int x) { unrest[x] = raisedUnrest(unrest[x], seen.previousNear.at(x, y)); });
   }
 }
 
@@ -284,7 +284,7 @@ void learn(const SmoothPicture& picture, const LearntFrame& seen, const Consensu
       if (turn % noisePeriod == 0)
         simd::followNoiseRow(row, {model.noise.row(y), seen.near.row(y)});
       if (!rate.isFirst) raiseUnrest(seen, y, model);
-      if (turn % kCalmPeriod == 0) calmUnrest(seen.foreground, y, model);
+      if (turn % rate.calmPeriod == 0) calmUnrest(seen.foreground, y, model);
       learner.learnRow(y);
     }
   });

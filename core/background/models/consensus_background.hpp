@@ -101,17 +101,19 @@ void smoothAndJudge(const Picture& picture, const ConsensusBackground& model,
 struct ConsensusRate {
   uint32_t frame = 0;  ///< Seeds the hash.
   int interval = 16;  ///< A background pixel remembers its colour every so many frames. 1 … 4096.
-  bool isFirst = false;  ///< In the first frames unrest is not counted.
+  bool isFirst = false;     ///< In the first frames unrest is not counted.
+  uint32_t calmPeriod = 8;  ///< Frames from a row's turn to calm down to its next one. 1 … 4096.
 };
-/// The cleaned foreground, also with what is beside it, and the verdicts before cleaning of this
-/// frame and the one before.
+/// The cleaned foreground, also with what is beside it, the verdicts before cleaning, and the last
+/// two of the frame before.
 struct LearntFrame {
-  const BitMask &foreground, &near, &raw, &previousRaw;
+  const BitMask &foreground, &near, &raw, &previousNear, &previousRaw;
 };
 /// Learns pixels that are no foreground; noise only away from it, for beside it are its blurred
 /// edges. A row remembers in every 8th frame, 16 columns at once, so
 /// that a pixel does as often as the interval says. Noise follows the distance to the nearest of
-/// all samples in every 16th frame of a row, unrest falls in every 8th.
+/// all samples in every 16th frame of a row. A verdict that flips raises unrest, half as much
+/// where `previousNear` says that a thing may have left.
 void learn(const SmoothPicture& picture, const LearntFrame& seen, const ConsensusRate& rate,
            const Executor& executor, ConsensusBackground& model);
 

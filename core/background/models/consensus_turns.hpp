@@ -13,8 +13,10 @@ namespace rg::background {
 
 inline constexpr uint32_t kNoisePeriod = 16, kFirstNoisePeriod = 4;  ///< Frames from turn to turn.
 inline constexpr uint32_t kLearnPeriod = 8;
-inline constexpr uint8_t kCalmPeriod = 8;  ///< Also what unrest loses a turn.
-inline constexpr int kFlip = 16;           ///< What it gains by a flip.
+inline constexpr int kFlip = 16;  ///< What unrest gains by a flip.
+/// The same where a thing was in the frame before: it may have left only.
+inline constexpr int kUncovered = 8;
+inline constexpr int kCalm = 8;  ///< What unrest loses a turn.
 
 // No tables, and no references to constants: a GPU has no memory that holds them.
 
@@ -70,11 +72,11 @@ struct LearningTurns {
 }
 static_assert(followedNoise(8, 2) == 10 && followedNoise(9, 1) == 8);
 
-[[nodiscard]] constexpr uint8_t raisedUnrest(uint8_t unrest) {
-  return static_cast<uint8_t>(std::min(255, unrest + kFlip));
+[[nodiscard]] constexpr uint8_t raisedUnrest(uint8_t unrest, bool isUncovered) {
+  return static_cast<uint8_t>(std::min(255, unrest + (isUncovered ? kUncovered : kFlip)));
 }
 [[nodiscard]] constexpr uint8_t calmedUnrest(uint8_t unrest) {
-  return static_cast<uint8_t>(unrest > kCalmPeriod ? unrest - kCalmPeriod : 0);
+  return static_cast<uint8_t>(unrest > kCalm ? unrest - kCalm : 0);
 }
 
 }  // namespace rg::background

@@ -141,6 +141,35 @@ TEST(Sway, ACameraIsFollowedAsFarAsItGoes) {
     }
 }
 
+/// Nobody has seen it at rest.
+TEST(Sway, IsToldOfACameraThatSwaysFromTheFirstFrame) {
+  for (const Texture texture : {Texture::Tiles, Texture::Stone}) {
+    StagedScene scene({texture, 3, 5});
+    int told = 0;
+    for (int i = 0; i < 125; ++i) {
+      const Point push{static_cast<int>(std::lround(6 * std::sin(.4 * i))), 0};
+      told += scene.show({{}, 100, push})->scene.event == background::SceneEvent::CameraShaken;
+    }
+    EXPECT_EQ(told, 1) << "texture " << static_cast<int>(texture);
+  }
+}
+
+TEST(Sway, APushOutOfRestIsFollowedBeyondWhatIsLookedAtFirst) {
+  StagedScene scene({Texture::Tiles, 3, 5});
+  scene.showFor(100, {});
+  int told = 0;
+  for (int i = 0; i < 20; ++i) {
+    const Point push{i % 4 < 2 ? 7 : -6, i % 4 < 2 ? 4 : -5};
+    const auto foreground = scene.show({walkerAt(i), 100, push});
+    const auto marks = marksOf(*foreground, seenFrom(push, walkerAt(i)));
+    EXPECT_EQ(foreground->scene.shift, push) << "frame " << i;
+    EXPECT_LT(marks.falsePercent, 1) << "frame " << i;
+    EXPECT_GE(marks.foundPercent, 80) << "frame " << i;
+    told += foreground->scene.event == background::SceneEvent::CameraShaken;
+  }
+  EXPECT_EQ(told, 1);
+}
+
 TEST_P(SceneChanges, ACameraThatWasTurnedStartsAnew) {
   StagedScene scene(GetParam());
   scene.showFor(100, {});

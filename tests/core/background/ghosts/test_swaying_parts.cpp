@@ -28,9 +28,9 @@ class SwayingParts : public ::testing::Test {
     });
     background::smooth(*picture, Executor(1), smooth_);
   }
-  void unsettle(int unrest) {
+  void unsettle(int unrest, int columns = kPart.width) {
     for (int y = kPart.y; y < kPart.bottom(); ++y)
-      for (int x = kPart.x; x < kPart.right(); ++x)
+      for (int x = kPart.x; x < kPart.x + columns; ++x)
         model_.unrest.at(x, y) = static_cast<uint8_t>(unrest);
   }
   bool isDropped(int level) {
@@ -71,6 +71,22 @@ TEST_F(SwayingParts, StayWhereTheirColourIsNotCloseBy) {
   unsettle(64);
   EXPECT_FALSE(isDropped(kCar));
   EXPECT_TRUE(isDropped(kSky));
+}
+
+TEST_F(SwayingParts, GoIfAQuarterOfThemIsRestless) {
+  unsettle(24, 2);
+  EXPECT_FALSE(isDropped(kSky));
+  unsettle(24, 4);
+  EXPECT_TRUE(isDropped(kSky));
+  unsettle(23);
+  EXPECT_FALSE(isDropped(kSky));
+}
+
+/// The radius is 13, with two levels for noise and one for unrest.
+TEST_F(SwayingParts, StayWhereTheirColourIsCloseByOnlyRoughly) {
+  unsettle(24);
+  EXPECT_TRUE(isDropped(kSky + 8));
+  EXPECT_FALSE(isDropped(kSky + 9));
 }
 
 TEST_F(SwayingParts, AThinOneThatIsNotLookedAtStays) {

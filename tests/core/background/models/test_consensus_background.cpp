@@ -123,7 +123,7 @@ uint32_t strangersAfter(bool isForeground, uint32_t frames, int threads = 1) {
   quiet.clear();
   for (int y = 0; y < size.height; ++y) setColumns(foreground.row(y), 0, size.width, isForeground);
   for (uint32_t frame = 1; frame <= frames; ++frame)
-    background::learn(picture, {foreground, foreground, quiet, quiet}, {frame, 8, false},
+    background::learn(picture, {foreground, foreground, quiet, quiet, quiet}, {frame, 8, false},
                       Executor(threads), model);
   model.noise.fill(0);
   return countSet(judged(picture, model, {0, 0}).raw);
@@ -143,7 +143,7 @@ TEST(Consensus, NoiseIsNotLearntBesideTheForeground) {
   near.clear();
   near.set(5, 3);
   for (uint32_t frame = 1; frame <= 16; ++frame)
-    background::learn(flat(size, 60), {quiet, near, quiet, quiet}, {frame, 4096, false},
+    background::learn(flat(size, 60), {quiet, near, quiet, quiet, quiet}, {frame, 4096, false},
                       Executor(1), model);
   EXPECT_EQ(model.noise.at(5, 3), 0);
   EXPECT_GT(model.noise.at(6, 3), 0);
@@ -155,7 +155,8 @@ TEST(Consensus, TheRateIsThePartOfPixelsLearntInAFrame) {
   BitMask quiet(size);
   quiet.clear();
   const auto picture = flat(size, 120);
-  background::learn(picture, {quiet, quiet, quiet, quiet}, {1, 10, false}, Executor(1), model);
+  background::learn(picture, {quiet, quiet, quiet, quiet, quiet}, {1, 10, false}, Executor(1),
+                    model);
   int64_t learnt = 0;
   for (int row = 0; row < model.samples.height(); ++row)
     learnt +=
@@ -173,12 +174,42 @@ TEST(Consensus, RestlessPixelsLearnTwiceAsFast) {
   for (const int unrest : {100, 200}) {
     auto model = started(flat(size, 50));
     model.unrest.fill(static_cast<uint8_t>(unrest));
-    background::learn(picture, {quiet, quiet, quiet, quiet}, {8, 10, false}, Executor(1), model);
+    background::learn(picture, {quiet, quiet, quiet, quiet, quiet}, {8, 10, false}, Executor(1),
+                      model);
     for (int row = 0; row < model.samples.height(); ++row)
       learnt[unrest > 127] +=
           std::count(model.samples.row(row), model.samples.row(row) + model.samples.width(), 120);
   }
   EXPECT_NEAR(static_cast<double>(learnt[1]) / static_cast<double>(learnt[0]), 2, 0.2);
+}
+
+/// Of a pixel whose verdict flips in every frame.
+int unrestAfter(int frames, bool wasCovered, uint32_t calmPeriod) {
+  const Size size{8, 8};
+  auto model = started(flat(size, 50));
+  BitMask quiet(size), seen(size), covered(size);
+  for (BitMask* mask : {&quiet, &seen, &covered}) mask->clear();
+  seen.set(4, 4);
+  if (wasCovered) covered.set(4, 4);
+  for (uint32_t frame = 1; frame <= static_cast<uint32_t>(frames); ++frame)
+    background::learn(flat(size, 50), {quiet, quiet, seen, covered, quiet},
+                      {frame, 16, false, calmPeriod}, Executor(1), model);
+  EXPECT_EQ(model.unrest.at(3, 4), 0);
+  return model.unrest.at(4, 4);
+}
+
+TEST(Consensus, WhatAThingUncoversIsHalfAsRestless) {
+  EXPECT_EQ(unrestAfter(3, false, 64), 48);
+  EXPECT_EQ(unrestAfter(3, true, 64), 24);
+  EXPECT_EQ(unrestAfter(100, true, 4096), 255);
+}
+
+TEST(Consensus, UnrestIsForgottenInTheTurnsThatTheRateNames) {
+  // Row 4 has its turn in frames 4, 12, 20 or in 12 only.
+  EXPECT_EQ(unrestAfter(10, true, 8), 72);
+  EXPECT_EQ(unrestAfter(12, true, 8), 80);
+  EXPECT_EQ(unrestAfter(12, true, 16), 88);
+  EXPECT_EQ(unrestAfter(12, true, 32), 96);
 }
 
 /// A model that has seen some frames with foreground, restless and noisy pixels in them.
@@ -199,8 +230,8 @@ background::ConsensusBackground modelAfterFrames(const Executor& executor) {
       return Rgb{level, static_cast<uint8_t>(y), 30};
     }));
     background::judge(picture, model, {8, 18}, executor, verdicts);
-    background::learn(picture, {mask, mask, verdicts.raw, before}, {frame, 4, frame < 5}, executor,
-                      model);
+    background::learn(picture, {mask, mask, verdicts.raw, mask, before}, {frame, 4, frame < 5},
+                      executor, model);
     std::swap(verdicts.raw, before);
   }
   return model;
