@@ -124,8 +124,10 @@ class CameraMotion {
     const int64_t u = bounded(x) - origin_.x, v = bounded(y) - origin_.y;
     const int64_t w = std::max(matrix_[6] * u + matrix_[7] * v + matrix_[8], kOne / 4);
     const Point was = before(x, y);
-    const int64_t beforeX = divideRounded(was.x, 1 << kPlaceBits) - origin_.x;
-    const int64_t beforeY = divideRounded(was.y, 1 << kPlaceBits) - origin_.y;
+    const auto px = [](int place) {
+      return bounded(static_cast<int>(divideRounded(place, 1 << kPlaceBits)));
+    };
+    const int64_t beforeX = px(was.x) - origin_.x, beforeY = px(was.y) - origin_.y;
     // 2^32 + 2^15 · 2^30, times 2^16, fit.
     const auto slope = [&](size_t at, size_t row, int64_t place) {
       return std::clamp(divideRounded((matrix_[at] - place * matrix_[row]) * LinearMap::kOne, w),
