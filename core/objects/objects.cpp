@@ -48,7 +48,7 @@ class ObjectStage final : public Stage {
                    std::vector<GroundEnergy>& energies);
   void markSurroundings(const Input& in, const Objects& objects);
   void markBackground(const Input& in, const Objects& objects);
-  void gatherEvidence(const graph::Graph& graph, const Objects& objects);
+  void gatherEvidence(const graph::Graph& graph, const Numbers& numbers, const Objects& objects);
   void markKnown(const graph::Graph& graph, const Objects& objects);
   void givePixels(const graph::Graph& graph, Objects& objects);
   void describe(const graph::Graph& graph, bool hasTime, Objects& objects);
@@ -140,7 +140,7 @@ void ObjectStage::mergeRegions(const Input& in, const Params& params, int64_t st
   expectLabels(graph, stepNs, objects);
   if (params.method == Method::Literal) return mergeByEnergy(motion, weights, objects);
   if (isStill)
-    followTrends(motion, trends_, trend_);
+    followTrends(motion, trends_, trend_, params.numbers.layers);
   else
     recallStanding(graph, objects);
   const motion::Motion& shown = isStill ? trend_ : motion;
@@ -158,7 +158,7 @@ void ObjectStage::mergeRegions(const Input& in, const Params& params, int64_t st
   } else {
     listArcs(graph, objects.arcs, arcs_);
     minimise(static_cast<uint32_t>(graph.regions.size()), arcs_, mergeScratch_, groupOf_);
-    partGroups(trend_, expected_, layerScratch_, groupOf_);
+    partGroups(trend_, expected_, layerScratch_, groupOf_, params.numbers.layers);
   }
   nameGroups(shown, objects);
   markBackground(in, objects);
@@ -211,8 +211,8 @@ void ObjectStage::tieToGround(const graph::Graph& graph, const MergeWeights& wei
 /// What has stopped is expected where it is seen, whatever it did before.
 void ObjectStage::recallStanding(const graph::Graph& graph, Objects& objects) {
   standing_.assign(graph.regions.size(), {});
-  findStandingTracks(tracker_.tracks(), *graph.labels, objects.camera, graph.regions,
-                     standingScratch_, standing_);
+  findStandingTracks(tracker_, *graph.labels, objects.camera, graph.regions, standingScratch_,
+                     standing_);
   for (size_t r = 0; r < standing_.size(); ++r) {
     if (!standing_[r].track) continue;
     expected_[r] = standing_[r].track;
@@ -306,8 +306,10 @@ void ObjectStage::nameRegions(const graph::Graph& graph, Objects& objects) {
     if (regionOwner_[r]) objects.regionObject[r] = trackAt(regionOwner_[r]).id;
 }
 
-void ObjectStage::gatherEvidence(const graph::Graph& graph, const Objects& objects) {
+void ObjectStage::gatherEvidence(const graph::Graph& graph, const Numbers& numbers,
+                                 const Objects& objects) {
   gather(graph, objects.regionGroup, isBackground_, expected_, evidence_);
+  evidence_.numbers = numbers.layers;
   evidence_.camera = objects.camera;
   evidence_.showsMovers = graph.labels->scope == segmentation::Scope::Frame;
   evidence_.motionOf.clear();
@@ -329,7 +331,7 @@ void ObjectStage::markKnown(const graph::Graph& graph, const Objects& objects) {
     const uint32_t group = objects.regionGroup[r].index(), areaPx = graph.regions[r].areaPx;
     if (!expected_[r] || areaPx <= mainPx_[group]) continue;
     mainPx_[group] = areaPx;
-    isKnown[group] = Tracker::isFaithful(trackAt(expected_[r]));
+    isKnown[group] = tracker_.isFaithful(trackAt(expected_[r]));
   }
 }
 
@@ -350,7 +352,8 @@ Result<std::shared_ptr<const Objects>> ObjectStage::process(Input in, const Para
   const TrackerParams tracking{
       static_cast<int64_t>(std::clamp(params.maxLostTimeS, 0.0, 3600.0) * 1e9),
       static_cast<uint32_t>(std::lround(std::clamp(params.minObjectArea, 0.0, 100.0) / 100 *
-                                        static_cast<double>(motion->size.area())))};
+                                        static_cast<double>(motion->size.area()))),
+      params.numbers};
   const int64_t stepNs = stepTo(time);
   const std::shared_ptr<const graph::Graph> graph = motion->graph;
   // prmmotion skips the first frame of all; its regions are there nevertheless.
@@ -366,7 +369,7 @@ Result<std::shared_ptr<const Objects>> ObjectStage::process(Input in, const Para
     return std::shared_ptr<const Objects>(objects);
   }
   mergeRegions(in, params, stepNs, *objects);
-  gatherEvidence(*graph, *objects);
+  gatherEvidence(*graph, params.numbers, *objects);
   tracker_.update(evidence_, groups_, stepNs, tracking);
   givePixels(*graph, *objects);
   describe(*graph, time.isKnown, *objects);

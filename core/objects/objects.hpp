@@ -11,6 +11,7 @@
 #include "core/base/result.hpp"
 #include "core/base/stage.hpp"
 #include "core/motion/motion.hpp"
+#include "core/objects/numbers.hpp"
 #include "core/objects/object.hpp"
 #include "core/objects/object_delay.hpp"
 #include "core/objects/placement_matrix.hpp"
@@ -44,6 +45,7 @@ struct Params {
   double maxLostTimeS = 2.0;      ///< An object that is not seen for longer ends.
   double minObjectArea = 0.0;     ///< Share of the frame, in percent; 0 = learnt from the scene.
   Method method = Method::Extended;
+  Numbers numbers{};
 };
 
 /// What mrfmerge looks at in one frame.

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Made-up scenes with known truth through the five stages, without GStreamer.
-#include "core/background/background.hpp"
-#include "core/base/memory/pool.hpp"
 #include "core/objects/objects.hpp"
 #include "core/text/names.hpp"
+#include "tests/accuracy/earlier_stages.hpp"
 #include "tests/accuracy/hardships.hpp"
 #include "tests/accuracy/painter.hpp"
 #include "tests/accuracy/sampling.hpp"
@@ -11,7 +10,6 @@
 #include "tests/support/digest.hpp"
 #include "tests/support/value_of.hpp"
 
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -65,40 +63,19 @@ constexpr char kUsage[] =
 class Pipeline {
  public:
   Pipeline(bool isPan, double fps)
-      : fps_(fps),
-        context_{std::make_shared<Executor>(0), {}},
-        background_(isPan ? nullptr : background::makeStage(context_)),
-        segmentation_(segmentation::makeStage(context_)),
-        graph_(graph::makeStage(context_)),
-        motion_(motion::makeStage(context_)),
+      : context_{std::make_shared<Executor>(0), {}},
+        earlier_(context_, isPan, fps),
         objects_(objects::makeStage(context_)) {}
 
   std::shared_ptr<const objects::Objects> process(const bench::RawFrame& raw) {
-    const auto picture = pictures_.take();
-    picture->load(raw.view(), *context_.cpu);
-    const FrameTime time{std::llround(1e9 * static_cast<double>(frames_++) / fps_), true};
-    std::shared_ptr<const background::Foreground> foreground;
-    segmentation::Params segmentation;
-    if (background_) {
-      foreground = valueOf(background_->process(picture, {}, time));
-      segmentation.scope = segmentation::Scope::Foreground;
-    }
-    const auto labels = valueOf(segmentation_->process(picture, foreground, segmentation));
-    const auto graph = valueOf(graph_->process(labels, {}));
-    const auto motion = valueOf(motion_->process(graph, {}));
-    return valueOf(objects_->process(motion, {}, time));
+    const auto motion = earlier_.process(raw);
+    return valueOf(objects_->process(motion, {}, earlier_.time()));
   }
 
  private:
-  double fps_;
   Context context_;
-  Pool<Picture> pictures_;
-  std::unique_ptr<background::Stage> background_;
-  std::unique_ptr<segmentation::Stage> segmentation_;
-  std::unique_ptr<graph::Stage> graph_;
-  std::unique_ptr<motion::Stage> motion_;
+  EarlierStages earlier_;
   std::unique_ptr<objects::Stage> objects_;
-  int64_t frames_ = 0;
 };
 
 void outline(bench::RawFrame& frame, const Box& box, const std::array<uint8_t, 3>& colour) {

@@ -3,9 +3,8 @@
 // one left out at a time. Under a panning camera without bgremove, where the merging alone parts
 // things from the ground, also by arcs: one between two regions is told right when it is kept
 // within a thing, or the ground, and broken between two.
-#include "core/background/background.hpp"
-#include "core/base/memory/pool.hpp"
 #include "core/objects/objects.hpp"
+#include "tests/accuracy/earlier_stages.hpp"
 #include "tests/accuracy/painter.hpp"
 #include "tests/accuracy/verdict.hpp"
 #include "tests/support/value_of.hpp"
@@ -123,29 +122,14 @@ void play(uint32_t seed, bool isPan, const Context& context, Trials& trials) {
   Plan plan = isPan ? planPan(seed, kSize) : planStill(seed, kSize);
   const Size canvas = plan.canvas;
   Painter painter(std::move(plan), makeYard(seed, canvas), seed);
-  const auto background = isPan ? nullptr : background::makeStage(context);
-  const auto segmentation = segmentation::makeStage(context);
-  const auto graph = graph::makeStage(context);
-  const auto motion = motion::makeStage(context);
-  Pool<Picture> pictures;
+  EarlierStages earlier(context, isPan, 25);
   bench::RawFrame frame;
   truth::Scene scene;
   for (int64_t number = 0; painter.next(frame, scene); ++number) {
-    const FrameTime time{number * 40'000'000, true};
-    const auto picture = pictures.take();
-    picture->load(frame.view(), *context.cpu);
-    std::shared_ptr<const background::Foreground> foreground;
-    segmentation::Params params;
-    if (background) {
-      foreground = valueOf(background->process(picture, {}, time));
-      params.scope = segmentation::Scope::Foreground;
-    }
-    const auto labels = valueOf(segmentation->process(picture, foreground, params));
-    const auto regions = valueOf(graph->process(labels, {}));
-    const auto moved = valueOf(motion->process(regions, {}));
+    const auto moved = earlier.process(frame);
     const auto owners =
-        isPan && number > 0 ? ownersOf(*regions, painter.top()) : std::vector<int>{};
-    for (Trial& trial : trials) trial.judge(moved, owners, scene, time);
+        isPan && number > 0 ? ownersOf(*moved->graph, painter.top()) : std::vector<int>{};
+    for (Trial& trial : trials) trial.judge(moved, owners, scene, earlier.time());
   }
 }
 

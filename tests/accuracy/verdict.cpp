@@ -172,6 +172,20 @@ std::map<int, uint64_t> Verdict::bestPartners() const {
   return partners;
 }
 
+/// How often an actor was found under another number than before.
+int64_t Verdict::exchanges() const {
+  int64_t count = 0;
+  for (const auto& [actor, spans] : spans_) {
+    uint64_t known = 0;
+    for (const Span& span : spans) {
+      if (span.id == 0) continue;
+      count += known != 0 && span.id != known;
+      known = span.id;
+    }
+  }
+  return count;
+}
+
 Figures Verdict::figures() const {
   int64_t matches = 0;
   Mean clear, hidden;
@@ -183,6 +197,7 @@ Figures Verdict::figures() const {
   }
   Figures f;
   f.idf1 = facts_ + reports_ == 0 ? 1 : 2.0 * double(matches) / double(facts_ + reports_);
+  if (facts_ > 0) f.mota = 1 - double(facts_ - found_ + false_ + exchanges()) / double(facts_);
   f.recall = facts_ == 0 ? 1 : double(found_) / double(facts_);
   f.falsePerFrame = frames_ == 0 ? 0 : double(false_) / frames_;
   f.centroidPx = clear.mean();

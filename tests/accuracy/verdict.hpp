@@ -16,6 +16,7 @@ namespace rg::truth {
 
 struct Figures {
   double idf1 = 0;           ///< 0 … 1.
+  double mota = 0;           ///< 1 less the share of misses, false boxes and exchanged numbers.
   double recall = 0;         ///< Share of what is to be found that a box with IoU ≥ 0.5 finds.
   double falsePerFrame = 0;  ///< Boxes that fit nothing.
   double centroidPx = 0;     ///< Mean distance, of what is at least 90 % visible.
@@ -55,6 +56,7 @@ class Verdict {
                                                     const objects::Objects& objects);
   void note(int actor, uint64_t id);
   [[nodiscard]] std::map<int, uint64_t> bestPartners() const;
+  [[nodiscard]] int64_t exchanges() const;
 
   std::map<std::pair<int, uint64_t>, Pair> pairs_;
   std::map<int, std::vector<Span>> spans_;

@@ -11,28 +11,28 @@
 namespace rg::objects {
 namespace {
 
-constexpr int64_t kAlikeShare = 3;
 constexpr int kWeightBits = 16;     // More would overflow when squared.
-constexpr int64_t kSteadiness = 2;  // What was apart is so at a drift that is smaller by this.
 constexpr uint64_t kDriftStep = 8;  // 1/16 px per frame: drifts that differ by less count as one.
 
 using Layer = LayerScratch::Layer;
 
 /// What was two objects stays so until it is seen to move as one.
-bool areApart(const Layer& a, const Layer& b) {
+bool areApart(const Layer& a, const Layer& b, const Numbers::Layers& n) {
   const bool wereApart = a.expected && b.expected && a.expected != b.expected;
-  if (a.weight < kLeastTrust * a.areaPx || b.weight < kLeastTrust * b.areaPx) return wereApart;
+  if (a.weight < n.leastTrust * a.areaPx || b.weight < n.leastTrust * b.areaPx) return wereApart;
   const auto mover = [](const Layer& layer) {
     return Mover{layer.momentX / layer.weight, layer.momentY / layer.weight, layer.weight};
   };
-  return moveApart(mover(a), mover(b), wereApart ? kLeastDrift / kSteadiness : kLeastDrift);
+  const Number least = wereApart ? n.keptDrift : n.leastDrift;
+  return moveApart(mover(a), mover(b), least.whole(), n.smallShare);
 }
 
 /// Legs stand while the body walks on, and hang below it.
-bool areStacked(const Box& a, const Box& b) {
+bool areStacked(const Box& a, const Box& b, const Numbers::Layers& n) {
   const int columns = std::min(a.right(), b.right()) - std::max(a.x, b.x);
   const int rows = std::min(a.bottom(), b.bottom()) - std::max(a.y, b.y);
-  return 2 * columns >= std::min(a.width, b.width) && 5 * rows < 2 * std::min(a.height, b.height);
+  return columns >= n.stackedColumns * std::min(a.width, b.width) &&
+         rows < n.stackedRows * std::min(a.height, b.height);
 }
 
 void joinLayers(uint32_t a, uint32_t b, LayerScratch& s) {
@@ -118,29 +118,29 @@ void linkLayers(const graph::Graph& graph, LayerScratch& s) {
 
 }  // namespace
 
-bool moveApart(const Mover& a, const Mover& b, int64_t least) {
+bool moveApart(const Mover& a, const Mover& b, int64_t least, Number smallShare) {
   const int64_t dx = a.dx - b.dx, dy = a.dy - b.dy;
   const int64_t most = std::max(a.weight, b.weight);
   const auto bits = static_cast<int>(std::bit_width(static_cast<uint64_t>(most)));
   const int shift = std::max(0, bits - kWeightBits);
   const int64_t larger = most >> shift,
-                share = kAlikeShare * (std::min(a.weight, b.weight) >> shift);
+                share = smallShare.den * (std::min(a.weight, b.weight) >> shift) / smallShare.num;
   const int64_t far = least * std::max(larger, share);
   return share > 0 && (dx * dx + dy * dy) * share * share >= far * far;
 }
 
 void partGroups(const motion::Motion& trends, std::span<const TrackIndex> expected, LayerScratch& s,
-                std::vector<uint32_t>& groupOf) {
+                std::vector<uint32_t>& groupOf, const Numbers::Layers& numbers) {
   startLayers(trends, expected, s);
   linkRegions(trends, groupOf, s);
   for (const LayerScratch::Link& link : s.links) {
     const uint32_t a = rootOf(s.parent, link.a), b = rootOf(s.parent, link.b);
-    if (a != b && !areApart(s.layers[a], s.layers[b])) joinLayers(a, b, s);
+    if (a != b && !areApart(s.layers[a], s.layers[b], numbers)) joinLayers(a, b, s);
   }
   linkLayers(*trends.graph, s);
   for (const LayerScratch::Link& link : s.links) {
     const uint32_t a = rootOf(s.parent, link.a), b = rootOf(s.parent, link.b);
-    if (a != b && areStacked(s.layers[a].box, s.layers[b].box)) joinLayers(a, b, s);
+    if (a != b && areStacked(s.layers[a].box, s.layers[b].box, numbers)) joinLayers(a, b, s);
   }
   numberSets(s.parent);
   std::copy(s.parent.begin(), s.parent.end(), groupOf.begin());

@@ -12,6 +12,7 @@
 #include "core/base/geometry.hpp"
 #include "core/motion/motion.hpp"
 #include "core/objects/indices.hpp"
+#include "core/objects/numbers.hpp"
 
 #include <cstdint>
 #include <span>
@@ -25,12 +26,10 @@ struct Mover {
   int64_t weight = 0;      ///< In any unit, of both that are compared.
 };
 
-/// Whether two things move apart: by `least` if one has at most three times the other's weight, by
-/// more the less there is of one, for the more its motion is off.
-[[nodiscard]] bool moveApart(const Mover& a, const Mover& b, int64_t least);
-
-inline constexpr int64_t kLeastDrift = 24;  ///< 1/16 px per frame by which trends differ of two.
-inline constexpr int kLeastTrust = 60;      ///< Of kFullReliability: less says nothing of a thing.
+/// Whether two things move apart: by `least` if the smaller one has `smallShare` of the other's
+/// weight, by more the less there is of it, for the more its motion is off.
+[[nodiscard]] bool moveApart(const Mover& a, const Mover& b, int64_t least,
+                             Number smallShare = Numbers::Layers{}.smallShare);
 
 struct LayerScratch {
   struct Layer {
@@ -54,6 +53,7 @@ struct LayerScratch {
 /// trends: core/objects/merge/motion_trends.hpp; expected: of each region the track that it is
 /// predicted to be, or none.
 void partGroups(const motion::Motion& trends, std::span<const TrackIndex> expected,
-                LayerScratch& scratch, std::vector<uint32_t>& groupOf);
+                LayerScratch& scratch, std::vector<uint32_t>& groupOf,
+                const Numbers::Layers& numbers = {});
 
 }  // namespace rg::objects

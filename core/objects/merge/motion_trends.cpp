@@ -10,14 +10,11 @@
 namespace rg::objects {
 namespace {
 
-constexpr int kStep = 2;              // Every second pixel of every second row tells enough.
-constexpr int kMostFrames = 8;        // That a trend remembers.
-constexpr int64_t kAlike = 28;        // 1/16 px per frame by which a vector may be off its trend.
-constexpr int32_t kHalfReliable = 6;  // Reliability of a vector that counts half.
+constexpr int kStep = 2;  // Every second pixel of every second row tells enough.
 
 /// What the previous frame knew of the pixels that a region came from.
 MotionTrend trendBefore(std::span<const Run> runs, const motion::RegionMotion& now,
-                        const MotionTrends& memory) {
+                        const MotionTrends& memory, int64_t alike) {
   const Image<uint16_t>& ids = memory.labels->ids;
   const Point shift{static_cast<int>(divideRounded(now.dx, motion::kMotionUnit)),
                     static_cast<int>(divideRounded(now.dy, motion::kMotionUnit))};
@@ -33,7 +30,7 @@ MotionTrend trendBefore(std::span<const Run> runs, const motion::RegionMotion& n
       const auto label = segmentation::RegionLabel::ofNumber(row[x]);
       const MotionTrend& trend = memory.before[label.index()];
       const int64_t dx = trend.dx - now.dx, dy = trend.dy - now.dy;
-      if (dx * dx + dy * dy > kAlike * kAlike) continue;
+      if (dx * dx + dy * dy > alike * alike) continue;
       weight += trend.weight;
       sumX += int64_t{trend.weight} * trend.dx;
       sumY += int64_t{trend.weight} * trend.dy;
@@ -46,9 +43,11 @@ MotionTrend trendBefore(std::span<const Run> runs, const motion::RegionMotion& n
 }
 
 /// The trend goes on with what the region shows in this frame.
-void add(const motion::RegionMotion& now, MotionTrend& trend) {
-  const int32_t fresh = kFrameWeight * now.reliability / (now.reliability + kHalfReliable);
-  trend.weight = std::min(trend.weight, (kMostFrames - 1) * kFrameWeight);
+void add(const motion::RegionMotion& now, const Numbers::Layers& numbers, MotionTrend& trend) {
+  const auto halfReliable = static_cast<int32_t>(numbers.halfReliable.whole());
+  const auto frames = static_cast<int32_t>(numbers.trendFrames.whole());
+  const int32_t fresh = kFrameWeight * now.reliability / (now.reliability + halfReliable);
+  trend.weight = std::min(trend.weight, (frames - 1) * kFrameWeight);
   const int32_t weight = trend.weight + fresh;
   if (weight == 0) return;
   const auto mix = [&](int32_t old, int32_t seen) {
@@ -60,7 +59,8 @@ void add(const motion::RegionMotion& now, MotionTrend& trend) {
 
 }  // namespace
 
-void followTrends(const motion::Motion& motion, MotionTrends& memory, motion::Motion& trends) {
+void followTrends(const motion::Motion& motion, MotionTrends& memory, motion::Motion& trends,
+                  const Numbers::Layers& numbers) {
   const graph::Graph& graph = *motion.graph;
   const size_t count = graph.regions.size();
   std::swap(memory.ofRegion, memory.before);
@@ -74,8 +74,8 @@ void followTrends(const motion::Motion& motion, MotionTrends& memory, motion::Mo
   for (size_t r = 0; r < count; ++r) {
     const motion::RegionMotion& now = motion.regions[r];
     MotionTrend& trend = memory.ofRegion[r];
-    if (hasBefore) trend = trendBefore(graph.runs.of(r), now, memory);
-    add(now, trend);
+    if (hasBefore) trend = trendBefore(graph.runs.of(r), now, memory, numbers.trendAlike.whole());
+    add(now, numbers, trend);
     const auto reliability =
         motion::kFullReliability * trend.weight / (trend.weight + kFrameWeight);
     trends.regions[r] = {trend.dx, trend.dy, now.sad, static_cast<uint16_t>(reliability)};

@@ -10,6 +10,7 @@
 #pragma once
 
 #include "core/motion/motion.hpp"
+#include "core/objects/numbers.hpp"
 
 #include <cstdint>
 #include <memory>
@@ -35,6 +36,7 @@ struct MotionTrends {
 
 /// Goes on to the next frame and tells its trends as a motion: the vectors are trends, and their
 /// reliability is half of kFullReliability after one frame that told all.
-void followTrends(const motion::Motion& motion, MotionTrends& memory, motion::Motion& trends);
+void followTrends(const motion::Motion& motion, MotionTrends& memory, motion::Motion& trends,
+                  const Numbers::Layers& numbers = {});
 
 }  // namespace rg::objects

@@ -18,15 +18,6 @@ namespace {
 
 constexpr int kMaxSweeps = 12;
 constexpr int kMaxRestarts = 4;
-// A thing inside another has a border of four to five times the root of its area: what clearly
-// moves otherwise has to outweigh that.
-constexpr int kMostExcess = 6;
-// Mean step across a border, and difference of two colours, that halve what parting costs; in grey
-// levels.
-constexpr int64_t kContrast = 16;
-constexpr int64_t kColour = 30;
-// Of the side of a square as large as the frame: a border of that length costs as much as an arc.
-constexpr int64_t kArcShare = 16;
 
 void listNeighbours(uint32_t nodeCount, std::span<const WeightedArc> arcs, MergeScratch& s) {
   s.firstArc.assign(nodeCount + 2, 0);
@@ -134,6 +125,7 @@ MergeWeights weightsOf(const Params& params, Size frame, int64_t stepNs) {
     return static_cast<int32_t>(std::lround(std::clamp(value, 0.0, 1000.0) * 256));
   };
   MergeWeights weights;
+  weights.numbers = params.numbers.energy;
   weights.motion = q8(params.motionWeight);
   weights.border = q8(params.borderWeight);
   weights.arc = q8(params.arcWeight);
@@ -149,26 +141,28 @@ void weighArcs(const motion::Motion& motion, std::span<const TrackIndex> predict
                const MergeWeights& weights, std::vector<ArcEnergy>& energies) {
   const graph::Graph& graph = *motion.graph;
   const int64_t threshold2 = int64_t{weights.motionThreshold} * weights.motionThreshold;
+  const Numbers::Energy& n = weights.numbers;
+  const int64_t halfContrast = n.halfContrast.whole(), halfColour = n.halfColour.whole();
+  const int64_t mostExcess = n.mostExcess.of(threshold2);
   const int64_t arcUnit =
-      weights.arc * int64_t{integerSqrt(static_cast<uint64_t>(graph.size.area()))} / kArcShare;
+      n.arcLength.of(weights.arc * int64_t{integerSqrt(static_cast<uint64_t>(graph.size.area()))});
   energies.clear();
   energies.reserve(graph.arcs.size());
   for (const graph::Arc& arc : graph.arcs) {
     const uint32_t s = arc.a.index(), t = arc.b.index();
     const motion::RegionMotion &v = motion.regions[s], &u = motion.regions[t];
     const int64_t dx = v.dx - u.dx, dy = v.dy - u.dy;
-    const int64_t excess =
-        std::clamp(dx * dx + dy * dy - threshold2, int64_t{0}, kMostExcess * threshold2);
+    const int64_t excess = std::clamp(dx * dx + dy * dy - threshold2, int64_t{0}, mostExcess);
     const int64_t rootArea =
         integerSqrt(std::min(graph.regions[s].areaPx, graph.regions[t].areaPx));
     const int64_t pull = std::min(v.reliability, u.reliability) * rootArea;
     const bool isPredicted = !predicted.empty() && predicted[s] && predicted[s] == predicted[t];
     energies.push_back(
         {.motion = weights.motion * (pull * excess / threshold2) / motion::kFullReliability,
-         .border =
-             int64_t{weights.border} * arc.borderPx * kContrast / (kContrast + arc.meanContrast()),
-         .arc = arcUnit * kColour /
-                (kColour + graph::difference(graph.regions[s].colour, graph.regions[t].colour)),
+         .border = int64_t{weights.border} * arc.borderPx * halfContrast /
+                   (halfContrast + arc.meanContrast()),
+         .arc = arcUnit * halfColour /
+                (halfColour + graph::difference(graph.regions[s].colour, graph.regions[t].colour)),
          .prediction = isPredicted ? weights.prediction * rootArea : 0});
   }
 }

@@ -26,6 +26,7 @@
 #include "core/motion/motion.hpp"
 #include "core/objects/indices.hpp"
 #include "core/objects/merge/arc_energy.hpp"
+#include "core/objects/numbers.hpp"
 
 #include <cstdint>
 #include <span>
@@ -42,6 +43,7 @@ struct MergeWeights {
   int32_t arc = 256;
   int32_t prediction = 512;
   int32_t motionThreshold = motion::kMotionUnit;  ///< T, in 1/16 px per step, at least a pixel.
+  Numbers::Energy numbers{};
 };
 
 /// Where frames of that size are stepNs apart.

@@ -7,11 +7,7 @@
 namespace rg::objects {
 namespace {
 
-constexpr int kForegroundGain = 4;
-constexpr int kBackgroundLoss =
-    3;  // A body fills some 60 % of its box: empty cells must cost less.
 constexpr int kRounds = 3;
-constexpr int kExpectedBonus = 2;
 
 /// Adds `change` to the claims of the cells inside the box.
 void claim(const GroupGrid& e, const Box& box, int change, std::vector<uint16_t>& claims) {
@@ -23,16 +19,22 @@ void claim(const GroupGrid& e, const Box& box, int change, std::vector<uint16_t>
 }
 
 /// What the prediction of the regions says of a cell.
-int trustOf(const GroupGrid& e, const FitTask& task, size_t cell) {
+int trustOf(const GroupGrid& e, const FitTask& task, size_t cell, int bonus) {
   if (e.expected[cell] == 0 || task.track == 0) return 0;
-  return e.expected[cell] == task.track ? kExpectedBonus : -kExpectedBonus;
+  return e.expected[cell] == task.track ? bonus : -bonus;
 }
 
 /// Sums of what the cells of `window` are worth to a task: at(x, y) covers all above and left.
 class ValueSums {
  public:
-  ValueSums(const GroupGrid& e, const FitTask& task, const Box& window, FitScratch& s)
-      : window_(window), stride_(window.width + 1), sums_(s.sums) {
+  ValueSums(const GroupGrid& e, const FitTask& task, const Box& window, FitScratch& s,
+            const Numbers::Fit& n)
+      : window_(window),
+        stride_(window.width + 1),
+        foreground_(static_cast<int>(n.foreground.whole())),
+        background_(static_cast<int>(n.background.whole())),
+        expected_(static_cast<int>(n.expected.whole())),
+        sums_(s.sums) {
     sums_.resize(static_cast<size_t>(stride_) * static_cast<size_t>(window.height + 1));
     std::fill_n(sums_.begin(), stride_, 0);
     const Box inside = intersect(window, boundsOf(e.grid));
@@ -61,17 +63,19 @@ class ValueSums {
   }
 
  private:
-  static int value(const GroupGrid& e, const FitTask& task, size_t cell,
-                   const std::vector<uint16_t>& claims) {
-    if (e.group[cell] == 0) return -kBackgroundLoss;
-    return claims[cell] > 0 ? 0
-                            : kForegroundGain + task.bonus[e.bin[cell]] + trustOf(e, task, cell);
+  [[nodiscard]] int value(const GroupGrid& e, const FitTask& task, size_t cell,
+                          const std::vector<uint16_t>& claims) const {
+    if (e.group[cell] == 0) return -background_;
+    return claims[cell] > 0
+               ? 0
+               : foreground_ + task.bonus[e.bin[cell]] + trustOf(e, task, cell, expected_);
   }
   [[nodiscard]] int32_t get(int x, int y) const {
     return sums_[static_cast<size_t>(y * stride_ + x)];
   }
   Box window_;
   int stride_;
+  int foreground_, background_, expected_;
   std::vector<int32_t>& sums_;
 };
 
@@ -82,10 +86,11 @@ Box windowOf(const FitTask& task) {
           box.height + 2 * task.reachY};
 }
 
-Box bestPlace(const GroupGrid& e, const FitTask& task, FitScratch& s) {
+Box bestPlace(const GroupGrid& e, const FitTask& task, FitScratch& s, const Numbers::Fit& n) {
   const Box& box = task.expected;
-  const ValueSums sums(e, task, windowOf(task), s);
-  const int margin = box.width / 4;
+  const ValueSums sums(e, task, windowOf(task), s, n);
+  const auto margin = static_cast<int>(n.core.of(box.width));
+  const int64_t foreground = n.foreground.whole(), lift = n.lift.whole();
   Box best = box;
   std::tuple<int64_t, int, int, int> bestKey{INT64_MAX, 0, 0, 0};
   for (int dy = -task.reachY; dy <= task.reachY; ++dy)
@@ -96,9 +101,9 @@ Box bestPlace(const GroupGrid& e, const FitTask& task, FitScratch& s) {
           int64_t{sums.inside(place)} + (task.isOfOwnSize ? sums.inside(place) : sums.inside(core));
       if (gain < -std::get<0>(bestKey)) continue;
       // A shift by half the width costs a quarter of what a full box gains.
-      const int64_t far = int64_t{kForegroundGain} *
+      const int64_t far = foreground *
                           (int64_t{dx} * dx * box.height * box.height +
-                           int64_t{dy} * dy * box.width * box.width * 4) /
+                           int64_t{dy} * dy * box.width * box.width * lift) /
                           std::max<int64_t>(box.area(), 1);
       const std::tuple key{far - gain, dx * dx + dy * dy, dy, dx};
       if (key < bestKey) {
@@ -109,11 +114,12 @@ Box bestPlace(const GroupGrid& e, const FitTask& task, FitScratch& s) {
   return best;
 }
 
-void takeTurn(const GroupGrid& e, std::span<FitTask> tier, size_t index, FitScratch& s) {
+void takeTurn(const GroupGrid& e, std::span<FitTask> tier, size_t index, FitScratch& s,
+              const Numbers::Fit& n) {
   FitTask& task = tier[index];
   const Box before = task.fitted;
   claim(e, before, -1, s.claims);
-  task.fitted = bestPlace(e, task, s);
+  task.fitted = bestPlace(e, task, s, n);
   claim(e, task.fitted, 1, s.claims);
   s.isSettled[index] = 1;
   if (task.fitted == before) return;
@@ -127,7 +133,8 @@ void takeTurn(const GroupGrid& e, std::span<FitTask> tier, size_t index, FitScra
 
 }  // namespace
 
-void fitBoxes(const GroupGrid& e, std::span<FitTask> tasks, FitScratch& s) {
+void fitBoxes(const GroupGrid& e, std::span<FitTask> tasks, FitScratch& s,
+              const Numbers::Fit& numbers) {
   s.claims.assign(e.group.size(), 0);
   for (size_t first = 0, last = 0; first < tasks.size(); first = last) {
     while (last < tasks.size() && tasks[last].tier == tasks[first].tier) ++last;
@@ -139,11 +146,13 @@ void fitBoxes(const GroupGrid& e, std::span<FitTask> tasks, FitScratch& s) {
     s.isSettled.assign(tier.size(), 0);
     for (int round = 0; round < kRounds; ++round)
       for (size_t i = 0; i < tier.size(); ++i)
-        if (s.isSettled[i] == 0) takeTurn(e, tier, i, s);
+        if (s.isSettled[i] == 0) takeTurn(e, tier, i, s, numbers);
   }
 }
 
-void assignCells(const GroupGrid& e, std::span<const FitTask> tasks, std::vector<uint16_t>& owner) {
+void assignCells(const GroupGrid& e, std::span<const FitTask> tasks, std::vector<uint16_t>& owner,
+                 const Numbers::Fit& numbers) {
+  const auto expected = static_cast<int>(numbers.expected.whole());
   owner.assign(e.group.size(), 0);
   for (size_t i = 0; i < tasks.size(); ++i) {
     const FitTask& task = tasks[i];
@@ -156,7 +165,7 @@ void assignCells(const GroupGrid& e, std::span<const FitTask> tasks, std::vector
         if (mine != 0) {
           const FitTask& other = tasks[mine - 1u];
           const auto claimOf = [&](const FitTask& t) {
-            return std::tuple(trustOf(e, t, cell), -t.tier, int{t.bonus[e.bin[cell]]});
+            return std::tuple(trustOf(e, t, cell, expected), -t.tier, int{t.bonus[e.bin[cell]]});
           };
           if (claimOf(other) >= claimOf(task)) continue;
         }

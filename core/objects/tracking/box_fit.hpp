@@ -42,11 +42,12 @@ struct FitScratch {
 };
 
 /// tasks must be sorted by tier.
-void fitBoxes(const GroupGrid& evidence, std::span<FitTask> tasks, FitScratch& scratch);
+void fitBoxes(const GroupGrid& evidence, std::span<FitTask> tasks, FitScratch& scratch,
+              const Numbers::Fit& numbers = {});
 
 /// For each cell 1 + the task that owns it, 0 = none. Where boxes overlap the lower tier wins, then
 /// the better colour, then the earlier task.
 void assignCells(const GroupGrid& evidence, std::span<const FitTask> tasks,
-                 std::vector<uint16_t>& owner);
+                 std::vector<uint16_t>& owner, const Numbers::Fit& numbers = {});
 
 }  // namespace rg::objects

@@ -12,7 +12,6 @@ namespace {
 constexpr int64_t kFadeNs = 250'000'000;
 constexpr int64_t kLongestNs = 60'000'000'000;  // By then nothing is left.
 constexpr uint32_t kOne = 256;
-constexpr uint32_t kSome = 8 * kOne;  // Two a second for long.
 
 }  // namespace
 
@@ -27,11 +26,11 @@ void Clutter::learn(int64_t areaPx) {
   counts_[std::min(static_cast<size_t>(digits), counts_.size() - 1)] += kOne;
 }
 
-int64_t Clutter::leastPx() const {
-  uint64_t sum = 0;
+int64_t Clutter::leastPx(Number some) const {
+  int64_t sum = 0;
   for (int bin = kBins - 1; bin > 0; --bin) {
     sum += counts_[static_cast<size_t>(bin)];
-    if (sum > kSome) return int64_t{1} << bin;
+    if (sum > some * int64_t{kOne}) return int64_t{1} << bin;
   }
   return 0;
 }

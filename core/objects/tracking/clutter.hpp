@@ -5,6 +5,8 @@
 // Determinism: integer counts that fade with the stream's time.
 #pragma once
 
+#include "core/objects/numbers.hpp"
+
 #include <array>
 #include <cstdint>
 
@@ -16,8 +18,9 @@ class Clutter {
   void age(int64_t stepNs);
   /// Something was there for a moment only.
   void learn(int64_t areaPx);
-  /// Objects are at least so large, in pixels: what is larger hardly ever came and went. 0 = all.
-  [[nodiscard]] int64_t leastPx() const;
+  /// Objects are at least so large, in pixels: what is larger came and went no more than
+  /// `some` times of late. 0 = all.
+  [[nodiscard]] int64_t leastPx(Number some = Numbers::Life{}.clutterSome) const;
 
  private:
   static constexpr int kBins = 32;

@@ -56,11 +56,8 @@ void findBins(const Picture& picture, const Run& cells, GroupGrid& e) {
   }
 }
 
-constexpr int64_t kLeastApart = 6;  // 1/16 px per frame by which two things differ.
-constexpr int kMostOfStanding = 8;  // The same, by which something may be off that stands.
-
 bool isTrusted(const GroupGrid& e, uint16_t group) {
-  return !e.trustOf.empty() && e.trustOf[group - 1u] >= kLeastTrust;
+  return !e.trustOf.empty() && e.trustOf[group - 1u] >= e.numbers.leastTrust.whole();
 }
 
 }  // namespace
@@ -101,7 +98,8 @@ bool areApart(const GroupGrid& e, uint16_t a, uint16_t b) {
     const int64_t cells = e.cellsOf[group - 1u];
     return Mover{v.x, v.y, e.showsMovers ? cells : cells * e.trustOf[group - 1u]};
   };
-  return moveApart(moverOf(a), moverOf(b), e.showsMovers ? kLeastApart : kLeastDrift);
+  const Number least = e.showsMovers ? e.numbers.moversDrift : e.numbers.leastDrift;
+  return moveApart(moverOf(a), moverOf(b), least.whole(), e.numbers.smallShare);
 }
 
 bool areStrangersApart(const GroupGrid& e, uint16_t a, uint16_t b) {
@@ -114,7 +112,7 @@ bool areStrangersApart(const GroupGrid& e, uint16_t a, uint16_t b) {
 bool isKnownToStand(const GroupGrid& e, uint16_t group) {
   if (group == 0 || !isTrusted(e, group)) return false;
   const Point v = e.motionOf[group - 1u];
-  return std::abs(v.x) + std::abs(v.y) < kMostOfStanding;
+  return std::abs(v.x) + std::abs(v.y) < e.numbers.stillDrift.whole();
 }
 
 void GroupGrid::listRuns() {

@@ -43,6 +43,7 @@ struct GroupGrid {
   /// What stands still is background, whatever it is, and groups are things: two that touch are
   /// told apart by their motion.
   bool showsMovers = false;
+  Numbers::Layers numbers{};
 
   /// The pixel that cell (x, y) shows.
   [[nodiscard]] Point middleOf(int x, int y) const {

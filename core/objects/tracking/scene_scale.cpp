@@ -11,8 +11,6 @@ namespace rg::objects {
 namespace {
 
 constexpr int kLineBits = 16;
-constexpr int kLeastSamples = 10;    // Of all bands together, before anything is said.
-constexpr size_t kLeastThings = 8;   // Before they are said to be alike.
 constexpr size_t kLeastPerBand = 3;  // Before a band's median counts.
 
 /// The value below which half of the weight lies; the list is sorted by value here.
@@ -31,7 +29,8 @@ int64_t weightedMedian(std::array<std::pair<int64_t, int64_t>, n>& list, size_t 
 
 }  // namespace
 
-void SceneScale::reset(Size frame) {
+void SceneScale::reset(Size frame, const Numbers::Sizes& numbers) {
+  numbers_ = numbers;
   frame_ = frame;
   for (Band& band : bands_) band.seen = 0;
   height_ = width_ = {};
@@ -117,7 +116,7 @@ void SceneScale::refit() {
       highFoot_ = std::max(highFoot_, band.samples[static_cast<size_t>(i)].foot);
     }
   }
-  isKnown_ = usable > 0 && samples >= kLeastSamples;
+  isKnown_ = usable > 0 && samples >= numbers_.leastSamples.whole();
   if (!isKnown_) return;
   height_ = fit(&Sample::height);
   width_ = fit(&Sample::width);
@@ -126,8 +125,9 @@ void SceneScale::refit() {
 
 bool SceneScale::isAsExpected(const Sample& sample) const {
   const int64_t height = valueAt(height_, sample.foot), width = valueAt(width_, sample.foot);
-  return 4 * std::abs(sample.height - height) <= height &&
-         (sample.width == 0 || (5 * sample.width <= 9 * width && 5 * width <= 9 * sample.width));
+  const Number wide = numbers_.alikeWidth;
+  return std::abs(sample.height - height) <= numbers_.alikeHeight * height &&
+         (sample.width == 0 || (sample.width <= wide * width && width <= wide * sample.width));
 }
 
 /// By samples and by things: one thing that walks up and down is always like itself.
@@ -155,8 +155,9 @@ bool SceneScale::areMostAlike() const {
   const auto end = things.begin() + static_cast<std::ptrdiff_t>(count);
   const auto alikeThings =
       std::count_if(things.begin(), end, [](const Thing& t) { return 2 * t.alike >= t.samples; });
-  return count >= kLeastThings && 4 * alike >= 3 * samples &&
-         4 * static_cast<size_t>(alikeThings) >= 3 * count;
+  const auto all = static_cast<int64_t>(count);
+  return all >= numbers_.leastThings.whole() && alike >= numbers_.mostAlike * samples &&
+         alikeThings >= numbers_.mostAlike * all;
 }
 
 }  // namespace rg::objects

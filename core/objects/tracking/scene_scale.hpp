@@ -6,6 +6,7 @@
 #pragma once
 
 #include "core/base/geometry.hpp"
+#include "core/objects/numbers.hpp"
 
 #include <array>
 #include <cstdint>
@@ -20,7 +21,7 @@ struct Extent {
 
 class SceneScale {
  public:
-  void reset(Size frame);
+  void reset(Size frame, const Numbers::Sizes& numbers = {});
   /// Thing `id` was seen whole with its feet at row `footPx`. Width 0: of unknown width.
   void learn(uint64_t id, int footPx, Extent size);
 
@@ -54,6 +55,7 @@ class SceneScale {
   [[nodiscard]] bool areMostAlike() const;
 
   Size frame_;
+  Numbers::Sizes numbers_;
   std::array<Band, kBands> bands_;
   Line height_, width_;
   int lowFoot_ = 0, highFoot_ = 0;  ///< Rows between which there are samples.

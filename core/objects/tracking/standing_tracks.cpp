@@ -29,7 +29,8 @@ void forSamples(const Portrait& p, const Picture& picture, Point corner, int ski
 }
 
 /// Where the thing stands, if as much of it is seen there as usually is.
-bool isSeenStanding(const Track& track, const Picture& picture, Point expected, Point& corner) {
+bool isSeenStanding(const Track& track, const Picture& picture, Point expected, Number share,
+                    Point& corner) {
   uint32_t most = 0;
   for (int dy = -kAround; dy <= kAround; ++dy)
     for (int dx = -kAround; dx <= kAround; ++dx) {
@@ -39,7 +40,7 @@ bool isSeenStanding(const Track& track, const Picture& picture, Point expected, 
         ++samples;
         agreeing += isAlike;
       });
-      if (4 * 256 * uint64_t{agreeing} < 3 * uint64_t{track.portrait.usual} * samples) continue;
+      if (256 * int64_t{agreeing} < share * (int64_t{track.portrait.usual} * samples)) continue;
       if (agreeing <= most) continue;
       most = agreeing;
       corner = at;
@@ -49,16 +50,19 @@ bool isSeenStanding(const Track& track, const Picture& picture, Point expected, 
 
 }  // namespace
 
-void findStandingTracks(std::span<const Track> tracks, const segmentation::Labels& labels,
+void findStandingTracks(const Tracker& tracker, const segmentation::Labels& labels,
                         const CameraMotion& camera, std::span<const graph::Region> regions,
                         StandingScratch& s, std::span<StandingTrack> ofRegion) {
   s.votes.resize(std::max(s.votes.size(), regions.size()), 0);
+  const std::vector<Track>& tracks = tracker.tracks();
+  const Numbers::Likeness& n = tracker.numbers().likeness;
   for (uint32_t t = 0; t < tracks.size(); ++t) {
     const Track& track = tracks[t];
-    if (!track.isConfirmed || !track.hasTravelled || !Tracker::isFaithful(track)) continue;
+    if (!track.isConfirmed || !track.hasTravelled || !tracker.isFaithful(track)) continue;
     Point corner;
     if (!isSeenStanding(track, *labels.picture,
-                        track.portraitCorner(camera.since({track.x, track.foot})), corner))
+                        track.portraitCorner(camera.since({track.x, track.foot})), n.standing,
+                        corner))
       continue;
     const auto samplePx = static_cast<uint32_t>(track.portrait.stepPx * track.portrait.stepPx);
     forSamples(track.portrait, *labels.picture, corner, 1, [&](Point at, bool isAlike) {
@@ -70,7 +74,7 @@ void findStandingTracks(std::span<const Track> tracks, const segmentation::Label
     });
     for (const uint32_t r : s.seen) {
       const uint32_t areaPx = std::min(s.votes[r], regions[r].areaPx);
-      if (2 * areaPx >= regions[r].areaPx && areaPx > ofRegion[r].areaPx)
+      if (areaPx >= n.standingRegion * regions[r].areaPx && areaPx > ofRegion[r].areaPx)
         ofRegion[r] = {TrackIndex::ofIndex(t), areaPx};
       s.votes[r] = 0;
     }

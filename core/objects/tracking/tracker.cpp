@@ -11,29 +11,25 @@
 namespace rg::objects {
 namespace {
 
-// Things leave their expected places by half their width in this time, at most.
-constexpr int64_t kReachNs = 100'000'000;
 constexpr int64_t kSecondUs = 1'000'000;
 constexpr int kUnit = kPositionUnit;
-constexpr uint32_t kTrustedSamples = 8;
-constexpr uint32_t kSteadySamples = 12;
-constexpr int64_t kCentreSamples = 31;
-constexpr int64_t kTurn = 3 * kUnit;  // So far off a sharp portrait, it turned round.
-constexpr uint16_t kRigidSway = 20;   // People's strides are beyond this.
 
 /// Gains in 1/16 of how far a sighting moves position and speed.
 struct Gains {
-  int position, speed;
+  Number position, speed;
 };
 
-Gains gainsOf(const Track& track, const Sighting& s, bool isFaithful, int64_t off) {
-  if (track.hits <= 2) return {16, 14};
-  if (track.hits <= 4) return {14, 8};
-  const bool isSharp = s.isMatched ? 2 * s.share >= 256 : s.isWhole && isFaithful;
-  if (isSharp && off > kTurn) return {16, 12};
-  if (s.isWhole || isSharp) return {11, 4};
-  if (s.isMatched) return 5 * s.share >= 256 ? Gains{8, 1} : Gains{4, 0};
-  return s.isSole ? Gains{8, 1} : Gains{8, 2};
+Gains gainsOf(const Track& track, const Sighting& s, bool isFaithful, int64_t off,
+              const Numbers::Place& n) {
+  constexpr int64_t kWhole = 256;
+  if (track.hits <= 2) return {n.firstGain, n.firstSpeed};
+  if (track.hits <= 4) return {n.earlyGain, n.earlySpeed};
+  const bool isSharp = s.isMatched ? s.share >= n.sharpShare * kWhole : s.isWhole && isFaithful;
+  if (isSharp && off > n.turn.whole()) return {n.turnGain, n.turnSpeed};
+  if (s.isWhole || isSharp) return {n.wholeGain, n.wholeSpeed};
+  if (s.isMatched && s.share >= n.weakShare * kWhole) return {n.matchGain, n.matchSpeed};
+  if (s.isMatched) return {n.weakGain, n.weakSpeed};
+  return s.isSole ? Gains{n.soleGain, n.soleSpeed} : Gains{n.otherGain, n.otherSpeed};
 }
 
 /// How much of what is usually foreground in its box a track owns, in 1/256.
@@ -43,19 +39,19 @@ uint32_t supportOf(const Track& track, const Sighting& s) {
 }
 
 /// Whether a box is about of a size; legs and arms change a width more than anything a height.
-bool isLike(const Box& box, const Extent& size) {
+bool isLike(const Box& box, const Extent& size, const Numbers::Place& n) {
   const int64_t height = box.height * int64_t{kUnit}, width = box.width * int64_t{kUnit};
-  return 4 * height >= 3 * int64_t{size.height} && 4 * height <= 5 * int64_t{size.height} &&
-         2 * width >= size.width && 2 * width <= 3 * int64_t{size.width};
+  return height >= n.leastHeight * size.height && height <= n.mostHeight * size.height &&
+         width >= n.leastWidth * size.width && width <= n.mostWidth * size.width;
 }
 
 /// Whether a box lacks an end of what is expected there.
-bool isCutAtOneEnd(const Track& track, const Box& box, bool isRigid) {
+bool isCutAtOneEnd(const Track& track, const Box& box, bool isRigid, const Numbers::Place& n) {
   const int64_t width = track.size.width;
   const int64_t atLeft = std::abs(int64_t{box.x} * kUnit - (track.x - width / 2));
   const int64_t atRight = std::abs(int64_t{box.right()} * kUnit - (track.x + width / 2));
-  return 12 * int64_t{box.width} * kUnit < (isRigid ? 11 : 10) * width &&
-         4 * std::min(atLeft, atRight) <= std::max(atLeft, atRight);
+  return int64_t{box.width} * kUnit < (isRigid ? n.cutRigid : n.cutOther) * width &&
+         std::min(atLeft, atRight) <= n.cutOneEnd * std::max(atLeft, atRight);
 }
 
 }  // namespace
@@ -121,6 +117,7 @@ void Tracker::advance(Track& track, int64_t stepNs) const {
 }
 
 void Tracker::predict(int64_t stepNs, const TrackerParams& params) {
+  numbers_ = params.numbers;
   events_.clear();
   owner_.clear();
   for (Track& track : tracks_) {
@@ -133,10 +130,11 @@ void Tracker::predict(int64_t stepNs, const TrackerParams& params) {
 
 void Tracker::update(const GroupGrid& evidence, std::span<const Group> groups, int64_t stepNs,
                      const TrackerParams& params) {
+  numbers_ = params.numbers;
   events_.clear();
   if (frame_ != evidence.frame || showsMovers_ != evidence.showsMovers) {
     frame_ = evidence.frame;
-    scale_.reset(frame_);
+    scale_.reset(frame_, numbers_.sizes);
   }
   stepPx_ = evidence.stepPx;
   showsMovers_ = evidence.showsMovers;
@@ -169,6 +167,38 @@ void Tracker::update(const GroupGrid& evidence, std::span<const Group> groups, i
   settle(stepNs, params);
 }
 
+/// Where a track's box is looked for. Its tier is open.
+FitTask Tracker::fitTaskOf(size_t index, const GroupGrid& e, int64_t stepNs) const {
+  const Track& track = tracks_[index];
+  const Numbers::Fit& n = numbers_.fit;
+  const int cell = e.stepPx * kUnit;
+  const int64_t reachNs = n.reach.whole();
+  const int64_t since = std::min<int64_t>(stepNs + track.unseenNs, reachNs);
+  const auto cells = [&](int64_t v) { return static_cast<int>(divideRounded(v, cell)); };
+  const auto within = [&](int64_t most) {
+    return std::max(2, static_cast<int>(divideRounded(most * since, reachNs)));
+  };
+  const auto atFirst = [](int64_t most) { return std::max(1, static_cast<int>(most)); };
+  FitTask task;
+  task.track = static_cast<uint16_t>(index + 1);
+  const int width = std::clamp(cells(track.size.width), 1, 2 * e.grid.width);
+  const int height = std::clamp(cells(track.size.height), 1, 2 * e.grid.height);
+  task.expected = {cells(int64_t{track.x} - track.size.width / 2), cells(track.foot) - height,
+                   width, height};
+  const bool isNew = track.hits < n.firstHits.whole();
+  task.reachX = isNew ? atFirst(n.firstReachX.of(width)) : within(n.reachX.of(width));
+  task.reachY = isNew ? atFirst(n.firstReachY.of(height)) : within(n.reachY.of(height));
+  task.isOfOwnSize = isRigid(track);
+  for (int bin = 0; bin < kColourBins && track.look.frames > 0; ++bin) {
+    const int share = shareOf(track.look, bin);
+    task.bonus[static_cast<size_t>(bin)] = share > n.ownColour.of(kFullMatch)    ? 2
+                                           : share > n.someColour.of(kFullMatch) ? 1
+                                           : share > n.fewColour.of(kFullMatch)  ? 0
+                                                                                 : -1;
+  }
+  return task;
+}
+
 void Tracker::lookForTracks(const GroupGrid& e, int64_t stepNs) {
   tasks_.clear();
   order_.clear();
@@ -181,35 +211,12 @@ void Tracker::lookForTracks(const GroupGrid& e, int64_t stepNs) {
     const Track &p = tracks_[a], &q = tracks_[b];
     return std::tuple(tierOf(p), -p.foot, p.id) < std::tuple(tierOf(q), -q.foot, q.id);
   });
-  const int cell = e.stepPx * kUnit;
   for (const size_t i : order_) {
-    const Track& track = tracks_[i];
-    FitTask task;
-    task.track = static_cast<uint16_t>(i + 1);
-    const auto cells = [&](int64_t v) { return static_cast<int>(divideRounded(v, cell)); };
-    const int width = std::clamp(cells(track.size.width), 1, 2 * e.grid.width);
-    const int height = std::clamp(cells(track.size.height), 1, 2 * e.grid.height);
-    task.expected = {cells(int64_t{track.x} - track.size.width / 2), cells(track.foot) - height,
-                     width, height};
-    const int64_t since = std::min<int64_t>(stepNs + track.unseenNs, kReachNs);
-    const auto within = [&](int most) {
-      return std::max(2, static_cast<int>(divideRounded(most * since, kReachNs)));
-    };
-    task.reachX = track.hits < 3 ? std::max(1, width) : within(width / 2);
-    task.reachY = track.hits < 3 ? std::max(1, height / 3) : within(height / 5);
-    task.tier = tierOf(track);
-    task.isOfOwnSize = isRigid(track);
-    for (int bin = 0; bin < kColourBins && track.look.frames > 0; ++bin) {
-      const int share = shareOf(track.look, bin);
-      task.bonus[static_cast<size_t>(bin)] = share > kFullMatch / 12    ? 2
-                                             : share > kFullMatch / 32  ? 1
-                                             : share > kFullMatch / 100 ? 0
-                                                                        : -1;
-    }
-    tasks_.push_back(task);
+    tasks_.push_back(fitTaskOf(i, e, stepNs));
+    tasks_.back().tier = tierOf(tracks_[i]);
   }
-  fitBoxes(e, tasks_, fitScratch_);
-  assignCells(e, tasks_, owner_);
+  fitBoxes(e, tasks_, fitScratch_, numbers_.fit);
+  assignCells(e, tasks_, owner_, numbers_.fit);
   e.forParts(owner_, [&](const Run& part, uint16_t task) {
     if (task == 0) return;
     std::fill_n(owner_.data() + e.at(part.begin, part.y), part.end - part.begin,
@@ -250,36 +257,37 @@ bool Tracker::hasTheRest(size_t index) const {
 }
 
 void Tracker::sight(const GroupGrid& e) {
+  const Numbers::Place& n = numbers_.place;
   for (size_t i = 0; i < tracks_.size(); ++i) {
     Sighting& s = sightings_[i];
     if (s.task < 0) continue;
     const Track& track = tracks_[i];
     const bool isSole = blobOf_[i] != 0 && soleTrack_[blobOf_[i]] == i + 1;
-    const bool isUsual = isLike(s.box, track.size) ||
-                         (isSole && isLike(s.box, scale_.at(s.box.bottom()))) ||
+    const bool isUsual = isLike(s.box, track.size, n) ||
+                         (isSole && isLike(s.box, scale_.at(s.box.bottom()), n)) ||
                          (!isSizeKnown(track) && (isSole || hasTheRest(i)));
     s.isSole = isSole;
     s.isStanding = blobOf_[i] != 0 && isKnownToStand(e, blobs_[blobOf_[i] - 1].group);
     // People's strides, of which a uniform scene is full, are no reason to distrust a box.
-    s.isCutOff = isSole && !scale_.isUniform() && track.sizeSamples >= kTrustedSamples &&
-                 isCutAtOneEnd(track, s.box, isRigid(track));
+    s.isCutOff = isSole && !scale_.isUniform() && isSizeKnown(track) &&
+                 isCutAtOneEnd(track, s.box, isRigid(track), n);
     const bool isClosing = isSole && goesBehind(tracks_[i], s.box);
     if (isClosing && isRigid(track)) s.isCutOff = true;
     const bool isAllThere =
-        isSole && isAbout(s.box, track) && 16 * s.share >= 15u * track.portrait.usual;
+        isSole && isAbout(s.box, track) && s.share >= n.allThere * track.portrait.usual;
     s.isWhole = (!s.isMatched || isAllThere) && !s.box.isEmpty() && isUsual && !s.isCutOff &&
-                5 * s.othersCells < s.boxCells;
+                s.othersCells < n.othersShare * s.boxCells;
   }
 }
 
 /// Until then a track is what its blob is: it grows with it, and nothing else begins beside it.
 bool Tracker::isSizeKnown(const Track& track) const {
-  return scale_.isUniform() || track.sizeSamples >= kTrustedSamples;
+  return scale_.isUniform() || track.sizeSamples >= numbers_.place.trustedSamples.whole();
 }
 
 /// Whether its box hardly changes: what is missing of it is hidden.
 bool Tracker::isRigid(const Track& track) const {
-  return !scale_.isUniform() && isSizeKnown(track) && track.sway < kRigidSway;
+  return !scale_.isUniform() && isSizeKnown(track) && track.sway < numbers_.place.rigidSway.whole();
 }
 
 /// Where a track is that is seen whole: by the mean of its pixels, which tells fractions of a pixel
@@ -296,7 +304,8 @@ Place Tracker::placeOfWhole(Track& track, const Sighting& s) const {
     const int64_t meanX = divideRounded(s.sumX, 16 * area),
                   meanY = divideRounded(s.sumY, 16 * area);
     const auto learn = [&](int32_t& centre, int64_t seen) {
-      const int64_t known = std::min<int64_t>(track.centreSamples, kCentreSamples);
+      const int64_t known =
+          std::min<int64_t>(track.centreSamples, numbers_.place.centreSamples.whole());
       centre = toInt(divideRounded(centre * known + seen, known + 1));
     };
     learn(track.centreX, meanX - (left + right) / 2);
@@ -327,9 +336,11 @@ Place Tracker::placeOf(size_t index) {
 
 /// Nobody sees it: it goes on as it did for a while, not as in the last moment.
 void Tracker::miss(Track& track, const Sighting& s, int64_t stepNs) const {
-  if (track.unseenNs == 0 && track.centreSamples >= kSteadySamples && !isCovered(track)) {
-    const auto isNear = [](int32_t speed, int32_t steady, int32_t size) {
-      return std::abs(speed - steady) <= std::max(std::abs(steady) / 2, size / 2);
+  const Numbers::Place& n = numbers_.place;
+  if (track.unseenNs == 0 && track.centreSamples >= n.steadySamples.whole() && !isCovered(track)) {
+    const auto isNear = [&](int32_t speed, int32_t steady, int32_t size) {
+      return std::abs(speed - steady) <=
+             std::max(n.slowing.of(std::abs(steady)), n.slowing.of(size));
     };
     if (isNear(track.speedX, track.steadyX, track.size.width) &&
         isNear(track.speedY, track.steadyY, track.size.height)) {
@@ -345,7 +356,7 @@ void Tracker::miss(Track& track, const Sighting& s, int64_t stepNs) const {
   };
   if (s.isBehind)
     shift(s.matched.x - track.x, s.matched.y - track.foot);
-  else if (track.unseenNs > kHeldNs)
+  else if (track.unseenNs > n.held.whole())
     shift(-track.heldX, -track.heldFoot);
   track.unseenNs += stepNs;
 }
@@ -354,9 +365,10 @@ void Tracker::miss(Track& track, const Sighting& s, int64_t stepNs) const {
 void Tracker::correct(size_t index, int64_t stepNs) {
   Track& track = tracks_[index];
   const Sighting& s = sightings_[index];
-  const bool wasSeen = track.unseenNs == 0;
+  const Numbers::Place& n = numbers_.place;
+  const Number least = track.unseenNs == 0 ? n.seenStill : n.seenAgain;
   track.isSeen =
-      s.isMatched || (s.task >= 0 && s.cells > 0 && supportOf(track, s) >= (wasSeen ? 77u : 128u));
+      s.isMatched || (s.task >= 0 && s.cells > 0 && supportOf(track, s) >= least * int64_t{256});
   track.isWhole = track.isSeen && s.isWhole;
   track.isStanding = track.isSeen && s.isStanding;
   if (!track.isSeen) return miss(track, s, stepNs);
@@ -365,15 +377,17 @@ void Tracker::correct(size_t index, int64_t stepNs) {
   const int64_t sinceUs = std::max<int64_t>((track.unseenNs + stepNs) / 1000, 1000);
   const int64_t offX = place.x - track.x, offFoot = place.foot - track.foot;
   const Gains gains =
-      gainsOf(track, s, isFaithful(track), std::max(std::abs(offX), std::abs(offFoot)));
-  track.x = toInt(track.x + offX * gains.position / 16);
-  track.foot = toInt(track.foot + offFoot * gains.position / 16);
-  track.speedX = toInt(track.speedX + offX * gains.speed * kSecondUs / 16 / sinceUs);
-  track.speedY = toInt(track.speedY + offFoot * gains.speed * kSecondUs / 16 / sinceUs);
-  if (s.isWhole || 4 * s.share >= 256) {
-    const int32_t share = static_cast<int32_t>(std::clamp(track.centreSamples, 1u, kSteadySamples));
-    track.steadyX += (track.speedX - track.steadyX) / share;
-    track.steadyY += (track.speedY - track.steadyY) / share;
+      gainsOf(track, s, isFaithful(track), std::max(std::abs(offX), std::abs(offFoot)), n);
+  const auto share = [](Number gain, int64_t off) { return off * gain.num / (16 * gain.den); };
+  track.x = toInt(track.x + share(gains.position, offX));
+  track.foot = toInt(track.foot + share(gains.position, offFoot));
+  track.speedX = toInt(track.speedX + share(gains.speed, offX * kSecondUs) / sinceUs);
+  track.speedY = toInt(track.speedY + share(gains.speed, offFoot * kSecondUs) / sinceUs);
+  if (s.isWhole || s.share >= n.steadyShare * int64_t{256}) {
+    const auto samples =
+        static_cast<int32_t>(std::clamp<int64_t>(track.centreSamples, 1, n.steadySamples.whole()));
+    track.steadyX += (track.speedX - track.steadyX) / samples;
+    track.steadyY += (track.speedY - track.steadyY) / samples;
   }
   track.unseenNs = 0;
   countUp(track.hits);

@@ -98,6 +98,7 @@ struct Track {
 struct TrackerParams {
   int64_t maxLostNs = 2'000'000'000;
   uint32_t minAreaPx = 0;  ///< 0 = learnt from the scene.
+  Numbers numbers{};
 };
 
 /// What the fit says of a track in this frame.
@@ -181,9 +182,6 @@ struct Majority {
   }
 };
 
-/// For so long something may have stopped behind others without being seen.
-inline constexpr int64_t kHeldNs = 200'000'000;
-
 /// What a tracker's successor must know: which objects readers take to be there, and the next id.
 struct TrackerLegacy {
   std::vector<uint64_t> alive;  ///< Sorted.
@@ -213,15 +211,19 @@ class Tracker {
   [[nodiscard]] static Point expectedShift(const Track& track, const CameraMotion& camera,
                                            int64_t stepNs);
   /// Whether its portrait tells where it is.
-  [[nodiscard]] static bool isFaithful(const Track& track);
+  [[nodiscard]] bool isFaithful(const Track& track) const;
   void remember(size_t index, graph::Colour colour) { tracks_[index].colour = colour; }
   [[nodiscard]] const SceneScale& scale() const { return scale_; }
+  /// Of the last frame.
+  [[nodiscard]] const Numbers& numbers() const { return numbers_; }
 
  private:
   [[nodiscard]] static Point stepOf(const Track& track, int64_t stepNs);
   static void moveWithCamera(Track& track, const CameraMotion& camera);
   void advance(Track& track, int64_t stepNs) const;
+  [[nodiscard]] FitTask fitTaskOf(size_t index, const GroupGrid& evidence, int64_t stepNs) const;
   void lookForTracks(const GroupGrid& evidence, int64_t stepNs);
+  void giveStrides(const GroupGrid& evidence);
   void giveGroups(const GroupGrid& evidence, std::span<const Group> groups);
   void findBlobs(const GroupGrid& evidence);
   void findOwnBlobs(const GroupGrid& evidence);
@@ -246,7 +248,7 @@ class Tracker {
   void countCells(const GroupGrid& evidence);
   void dropStrangers(const GroupGrid& evidence);
   [[nodiscard]] bool hasTheRest(size_t index) const;
-  [[nodiscard]] static bool goesBehind(Track& track, const Box& box);
+  [[nodiscard]] bool goesBehind(Track& track, const Box& box) const;
   void sight(const GroupGrid& evidence);
   [[nodiscard]] bool isSizeKnown(const Track& track) const;
   void watchEntry(Track& track, const Sighting& sighting) const;
@@ -275,6 +277,7 @@ class Tracker {
   [[nodiscard]] bool hidesAnother(const Track& track) const;
   [[nodiscard]] Place placeOfWhole(Track& track, const Sighting& sighting) const;
   void miss(Track& track, const Sighting& sighting, int64_t stepNs) const;
+  void mixSize(Track& track, const Sighting& sighting) const;
   void learnSize(size_t index, int64_t stepNs, const GroupGrid& evidence);
   [[nodiscard]] uint64_t parentOf(const Newcomer& newcomer) const;
   void begin(const Newcomer& newcomer);
@@ -282,7 +285,7 @@ class Tracker {
   void fitSizeToScene(Track& track) const;
   void learnScale(const GroupGrid& evidence);
   [[nodiscard]] bool outgrows(const Track& track, const Box& box) const;
-  [[nodiscard]] static bool movesOtherwise(const Track& a, const Track& b);
+  [[nodiscard]] bool movesOtherwise(const Track& a, const Track& b) const;
   [[nodiscard]] bool areOneBody(const GroupGrid& evidence, size_t a, size_t b) const;
   void joinDoubles(const GroupGrid& evidence, int64_t stepNs);
   void findCompany(int64_t stepNs);
@@ -294,6 +297,7 @@ class Tracker {
   void settleState(Track& track, int64_t stepNs) const;
   void settle(int64_t stepNs, const TrackerParams& params);
 
+  Numbers numbers_;  ///< Of the frame.
   std::vector<Track> tracks_;
   std::vector<Event> events_;
   TrackerLegacy told_;    ///< As of the last takeEvents().

@@ -7,9 +7,6 @@
 namespace rg::objects {
 namespace {
 
-// What was seen as one may be hidden in its middle, but not for so long.
-constexpr int64_t kPartedNs = 500'000'000;
-
 /// pairs(f) calls f(key, value, times) for everything that is counted.
 template <class Pairs>
 void findMajorities(size_t keys, std::vector<Majority>& result, const Pairs& pairs) {
@@ -19,9 +16,10 @@ void findMajorities(size_t keys, std::vector<Majority>& result, const Pairs& pai
 }
 
 /// Whether a blob is another thing than the one beside it: about as high, and in other columns.
-bool standBeside(const Box& mine, const Box& other) {
+bool standBeside(const Box& mine, const Box& other, const Numbers::Cells& n) {
   const int columns = std::min(mine.right(), other.right()) - std::max(mine.x, other.x);
-  return 2 * columns < std::min(mine.width, other.width) && 2 * other.height >= mine.height;
+  return columns < n.besideColumns * std::min(mine.width, other.width) &&
+         other.height >= n.besideHeight * mine.height;
 }
 
 }  // namespace
@@ -92,10 +90,10 @@ void Tracker::giveBlobs(const GroupGrid& e) {
       owner_[cell] = 0;
       return;
     }
-    if (!standBeside(mine, other)) return;
+    if (!standBeside(mine, other, numbers_.cells)) return;
     sightings_[owner - 1u].isParted = true;
     const Track& track = tracks_[owner - 1u];
-    if (!isSizeKnown(track) || track.partedNs > kPartedNs) owner_[cell] = 0;
+    if (!isSizeKnown(track) || track.partedNs > numbers_.cells.parted.whole()) owner_[cell] = 0;
   });
   partTracks(e);
   limitTracks(e);
@@ -110,6 +108,7 @@ void Tracker::partTracks(const GroupGrid& e) {
     forStrayCells(
         e, [&](size_t cell, uint32_t blob, uint32_t) { count(owner_[cell] - 1u, blob, 1u); });
   });
+  const Numbers::Cells& n = numbers_.cells;
   const Box inside = inflate(boundsOf(e.grid), -1);
   const auto isInside = [&](const Box& box) { return intersect(box, inside) == box; };
   for (size_t t = 0; t < tracks_.size(); ++t) {
@@ -122,11 +121,12 @@ void Tracker::partTracks(const GroupGrid& e) {
     if (!isPair) continue;
     const Piece &main = blobs_[blobOf_[t] - 1], &part = blobs_[other.value - 1];
     const int least = std::min(main.box.width, part.box.width);
-    if (!isInside(main.box) || !isInside(part.box) || 4 * part.cells < main.cells) continue;
+    if (!isInside(main.box) || !isInside(part.box) || part.cells < n.partCells * main.cells)
+      continue;
     const int way = 2 * part.box.x + part.box.width - 2 * main.box.x - main.box.width;
     const int offset = (part.box.y < main.box.y ? way : -way) * e.stepPx;
     if (track.partOffset == INT32_MIN) track.partOffset = offset;
-    if (2 * std::abs(offset - track.partOffset) <= least * e.stepPx) continue;
+    if (std::abs(offset - track.partOffset) <= n.partOffset * (least * e.stepPx)) continue;
     e.forForeground([&](size_t cell, int, int) {
       if (owner_[cell] == t + 1 && blobScratch_.label[cell] == other.value) owner_[cell] = 0;
     });
@@ -142,8 +142,9 @@ void Tracker::limitTracks(const GroupGrid& e) {
   for (size_t t = 0; t < tasks_.size(); ++t) {
     const Box& box = tasks_[t].fitted;
     if (isSizeKnown(tracks_[tasks_[t].trackIndex()]))
-      limits_[tasks_[t].trackIndex()] =
-          inflate(box, std::max(2, std::min(box.width, box.height) / 4));
+      limits_[tasks_[t].trackIndex()] = inflate(
+          box,
+          std::max(2, static_cast<int>(numbers_.cells.limit.of(std::min(box.width, box.height)))));
   }
 }
 
@@ -192,19 +193,14 @@ void Tracker::spreadOwners(const GroupGrid& e) {
 }
 
 /// What sticks out of a fitted box (an arm, a long stride) goes with its group, when most of the
-/// group belongs to one track. The groups of which a track has most are what is seen of it.
-void Tracker::giveGroups(const GroupGrid& e, std::span<const Group> groups) {
-  const auto vote = [&](auto&& count) {
-    e.forParts(owner_, [&](const Run& part, uint16_t owner) {
-      if (owner == 0) return;
-      count(e.group[e.at(part.begin, part.y)] - 1u, owner, uint32_t{part.end} - part.begin);
-    });
-  };
-  findMajorities(groups.size(), majorities_, vote);
+/// group belongs to one track.
+void Tracker::giveStrides(const GroupGrid& e) {
+  const Numbers::Cells& n = numbers_.cells;
   for (size_t t = 0; t < tasks_.size(); ++t) {
     const auto mine = tasks_[t].track;
     const Box& fitted = tasks_[t].fitted;
-    const int side = std::max(1, fitted.width / 3), above = std::max(1, fitted.height / 6);
+    const int side = std::max(1, static_cast<int>(n.strideSide.of(fitted.width)));
+    const int above = std::max(1, static_cast<int>(n.strideAbove.of(fitted.height)));
     const Box near = intersect(
         {fitted.x - side, fitted.y - above, fitted.width + 2 * side, fitted.height + 2 * above},
         boundsOf(e.grid));
@@ -213,14 +209,27 @@ void Tracker::giveGroups(const GroupGrid& e, std::span<const Group> groups) {
         const size_t cell = e.at(x, y);
         if (e.group[cell] == 0 || owner_[cell] != 0) continue;
         const Majority& group = majorities_[e.group[cell] - 1u];
-        if (group.value == mine && 2 * group.votes >= e.cellsOf[e.group[cell] - 1u])
+        if (group.value == mine && group.votes >= n.groupShare * e.cellsOf[e.group[cell] - 1u])
           owner_[cell] = mine;
       }
   }
+}
+
+/// The groups of which a track has most are what is seen of it, once it has what sticks out of it.
+void Tracker::giveGroups(const GroupGrid& e, std::span<const Group> groups) {
+  const auto vote = [&](auto&& count) {
+    e.forParts(owner_, [&](const Run& part, uint16_t owner) {
+      if (owner == 0) return;
+      count(e.group[e.at(part.begin, part.y)] - 1u, owner, uint32_t{part.end} - part.begin);
+    });
+  };
+  findMajorities(groups.size(), majorities_, vote);
+  giveStrides(e);
+  const Numbers::Cells& n = numbers_.cells;
   // Where sizes say nothing, a group of several is shared cell by cell.
   const auto isOwned = [&](size_t g) {
     const uint32_t votes = majorities_[g].votes, cells = e.cellsOf[g];
-    return votes > 0 && (scale_.isUniform() ? 5 * votes >= 3 * cells : 20 * votes >= 19 * cells);
+    return votes > 0 && votes >= (scale_.isUniform() ? n.uniformShare : n.loneShare) * cells;
   };
   if (!scale_.isUniform())
     e.forParts(owner_, [&](const Run& part, uint16_t owner) {

@@ -6,11 +6,6 @@
 #include <utility>
 
 namespace rg::objects {
-namespace {
-
-constexpr int64_t kSettledNs = 100'000'000;  // Two that only brush each other have not merged.
-
-}  // namespace
 
 /// Tracks of one blob form a company, named after its smallest id; a change counts once it has
 /// lasted. Tracks that are not seen stay where they were.
@@ -28,7 +23,7 @@ void Tracker::findCompany(int64_t stepNs) {
     if (company != track.nextCompany) track.companyNs = 0;
     track.nextCompany = company;
     track.companyNs += stepNs;
-    if (track.companyNs >= kSettledNs) track.company = company;
+    if (track.companyNs >= numbers_.life.settled.whole()) track.company = company;
   }
 }
 

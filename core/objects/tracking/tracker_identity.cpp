@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Who is who after several objects were one blob: once they are apart again, their looks tell
-// whether two of them have taken each other's place.
+// whether two of them have taken each other's place. And which of them are one.
 #include "core/objects/tracking/tracker.hpp"
 
 #include <algorithm>
@@ -10,11 +10,7 @@
 namespace rg::objects {
 namespace {
 
-constexpr int kStranger = 35;       // Percent; who is themselves is more alike than this.
-constexpr uint32_t kKnownLook = 8;  // Frames after which a look can be told from another.
-constexpr uint32_t kLeastCells = 16;
-constexpr uint32_t kLooks = 4;            // Seen apart so often, both are judged.
-constexpr int kMargin = kFullMatch / 12;  // By so much the exchange has to look better.
+constexpr int kUnit = kPositionUnit;
 constexpr size_t kMaxEncounters = 512;
 
 /// Exchanges who two tracks are; where they are and what is seen there stays.
@@ -34,16 +30,18 @@ void exchangeIdentities(Track& a, Track& b) {
 /// Who stands where somebody was expected but looks like nothing that was seen of them is somebody
 /// else: one who comes in where the other left.
 void Tracker::dropStrangers(const GroupGrid& e) {
+  const Numbers::Identity& n = numbers_.identity;
   bool hasStrangers = false;
   for (size_t i = 0; i < tracks_.size(); ++i) {
     Sighting& s = sightings_[i];
     const Track& track = tracks_[i];
     const bool isAlone = blobOf_[i] != 0 && soleTrack_[blobOf_[i]] == i + 1;
-    if (!isAlone || s.isMatched || track.look.frames < kKnownLook || s.cells < kLeastCells)
+    if (!isAlone || s.isMatched || track.look.frames < n.knownLook.whole() ||
+        s.cells < n.leastCells.whole())
       continue;
     Look now;
     learn(now, s.look);
-    if (100 * similarity(track.look, now) >= kStranger * kFullMatch) continue;
+    if (similarity(track.look, now) >= n.stranger * kFullMatch) continue;
     s = {};
     blobOf_[i] = 0;
     hasStrangers = true;
@@ -105,16 +103,17 @@ void Tracker::learnLook(size_t index) {
 
 /// Judges the pairs that came apart; where each looks like the other did, they are exchanged.
 void Tracker::judgeIdentities() {
+  const int64_t looks = numbers_.identity.looks.whole();
   const auto isSettled = [&](const Encounter& encounter) {
     Track *first = find(encounter.first), *second = find(encounter.second);
     if (!first || !second || first->isOver || second->isOver) return true;
     if (encounter.isTogether) return false;
-    if (first->recent.frames < kLooks || second->recent.frames < kLooks) return false;
+    if (first->recent.frames < looks || second->recent.frames < looks) return false;
     const int stay =
         similarity(first->look, first->recent) + similarity(second->look, second->recent);
     const int change =
         similarity(first->look, second->recent) + similarity(second->look, first->recent);
-    if (change > stay + kMargin) exchange(*first, *second);
+    if (change > stay + numbers_.identity.margin.of(kFullMatch)) exchange(*first, *second);
     return true;
   };
   size_t kept = 0;
@@ -135,6 +134,76 @@ void Tracker::exchange(Track& a, Track& b) {
       owner = static_cast<uint16_t>(second + 1);
     else if (owner == second + 1)
       owner = static_cast<uint16_t>(first + 1);
+  }
+}
+
+/// Whether two tracks keep moving at other speeds.
+bool Tracker::movesOtherwise(const Track& a, const Track& b) const {
+  if (std::min(a.centreSamples, b.centreSamples) < numbers_.place.steadySamples.whole())
+    return false;
+  const int64_t dx = a.steadyX - b.steadyX, dy = a.steadyY - b.steadyY;
+  return std::abs(dx) + std::abs(dy) >
+         numbers_.life.otherSpeed * std::min(a.size.width, b.size.width);
+}
+
+/// Whether two tracks seem to be one body: they lie above each other as its halves do, or together
+/// show no more than one of them should.
+bool Tracker::areOneBody(const GroupGrid& e, size_t a, size_t b) const {
+  const Numbers::Life& n = numbers_.life;
+  const Track &p = tracks_[a], &q = tracks_[b];
+  const Box first = p.box(), second = q.box(), both = unite(first, second);
+  const int columns = std::min(first.right(), second.right()) - std::max(first.x, second.x);
+  if (blobOf_[a] != 0 && blobOf_[b] != 0 &&
+      areApart(e, blobs_[blobOf_[a] - 1].group, blobs_[blobOf_[b] - 1].group))
+    return false;
+  if (!scale_.isUniform() && (movesOtherwise(p, q) || isComplete(a, e) || isComplete(b, e)))
+    return false;
+  if (outgrows(p, both) || outgrows(q, both)) return false;
+  if (!scale_.isUniform() && blobOf_[a] != 0 && blobOf_[a] == blobOf_[b] &&
+      std::min(p.apartNs, q.apartNs) < n.doubled.whole())
+    return true;
+  if (columns < n.oneBodyColumns * std::min(first.width, second.width)) return false;
+  if (!scale_.isUniform()) {
+    const int rows = std::min(first.bottom(), second.bottom()) - std::max(first.y, second.y);
+    const int least = std::min(first.height, second.height);
+    return rows < n.oneBodyRows * least && -rows < n.oneBodyGap * least;
+  }
+  const Extent usual = scale_.at(both.bottom());
+  if (both.height * kUnit < n.oneBodyHeight * usual.height) return true;
+  const Sighting &s = sightings_[a], &t = sightings_[b];
+  const int64_t one = int64_t{std::max(s.boxCells, t.boxCells)} * std::max(p.fill, q.fill);
+  return 256 * (int64_t{s.cells} + t.cells) < n.oneBodyCells * one &&
+         intersect(first, second).area() > n.oneBodyShared * std::min(first.area(), second.area());
+}
+
+/// Ends tracks that were one body with an older one for a while.
+void Tracker::joinDoubles(const GroupGrid& e, int64_t stepNs) {
+  for (size_t b = 0; b < sightings_.size(); ++b) {
+    Track& track = tracks_[b];
+    if (!track.isSeen) continue;
+    size_t partner = b;
+    for (size_t a = 0; a < b && partner == b; ++a)
+      if (tracks_[a].isSeen && !tracks_[a].isOver && areOneBody(e, a, b)) partner = a;
+    if (partner == b) {
+      track.doubleNs = 0;
+      continue;
+    }
+    track.doubleNs += stepNs;
+    // Nothing says that it is a thing of its own when it was apart for a shorter time.
+    const int64_t doubled = numbers_.life.doubled.whole();
+    if (track.doubleNs < (scale_.isUniform() ? doubled : std::min(doubled, track.apartNs)))
+      continue;
+    Track& kept = tracks_[partner];
+    if (!scale_.isUniform()) {
+      const Box both = unite(kept.box(), track.box());
+      kept.x = (2 * both.x + both.width) * kUnit / 2;
+      kept.foot = both.bottom() * kUnit;
+      kept.size = {both.width * kUnit, both.height * kUnit};
+      kept.sizeSamples = 0;
+    }
+    track.isOver = true;
+    for (uint16_t& owner : owner_)
+      if (owner == b + 1) owner = static_cast<uint16_t>(partner + 1);
   }
 }
 

@@ -26,15 +26,17 @@ bool touchesBorder(const Box& box, Size frame) {
 
 /// Pieces of one body lie above each other: they share most of their columns, the gap between them
 /// is short and together they are no higher than one thing.
-bool belongTogether(const Box& a, const Box& b, const SceneScale& scale) {
+bool belongTogether(const Box& a, const Box& b, const SceneScale& scale,
+                    const Numbers::Newcomers& n) {
   const int shared = std::min(a.right(), b.right()) - std::max(a.x, b.x);
-  if (2 * shared < std::min(a.width, b.width)) return false;
+  if (shared < n.sharedColumns * std::min(a.width, b.width)) return false;
   const Box both = unite(a, b);
   const int gap = std::max(a.y, b.y) - std::min(a.bottom(), b.bottom());
-  if (!scale.isUniform()) return 4 * gap <= std::max(a.height, b.height);
+  if (!scale.isUniform()) return gap <= n.gap * std::max(a.height, b.height);
   const Extent expected = scale.at(both.bottom());
-  return 4 * gap * kUnit <= expected.height && 5 * expected.height >= 4 * both.height * kUnit &&
-         2 * both.width * kUnit <= 3 * expected.width;
+  return gap * kUnit <= n.gap * expected.height &&
+         both.height * kUnit <= n.bodyHeight * expected.height &&
+         both.width * kUnit <= n.bodyWidth * expected.width;
 }
 
 }  // namespace
@@ -49,7 +51,7 @@ void Tracker::findNewcomers(const GroupGrid& e, const TrackerParams& params) {
   std::vector<size_t>& order = order_;
   order.clear();
   for (size_t i = 0; i < pieces_.size(); ++i)
-    if (pieces_[i].cells >= 4) order.push_back(i);
+    if (pieces_[i].cells >= numbers_.newcomers.leastCells.whole()) order.push_back(i);
   std::sort(order.begin(), order.end(), [&](size_t a, size_t b) {
     return std::tuple(pieces_[b].cells, a) < std::tuple(pieces_[a].cells, b);
   });
@@ -61,8 +63,9 @@ void Tracker::findNewcomers(const GroupGrid& e, const TrackerParams& params) {
     piece.group = pieces_[i].group;
     int host = -1;
     for (size_t n = 0; n < newcomers_.size() && host < 0; ++n)
-      if ((scale_.isUniform() || 2 * piece.cells <= newcomers_[n].cells) &&
-          belongTogether(newcomers_[n].box, piece.box, scale_) &&
+      if ((scale_.isUniform() ||
+           piece.cells <= numbers_.newcomers.fragment * newcomers_[n].cells) &&
+          belongTogether(newcomers_[n].box, piece.box, scale_, numbers_.newcomers) &&
           !areApart(e, newcomers_[n].group, piece.group))
         host = static_cast<int>(n);
     if (host < 0) {
@@ -85,14 +88,17 @@ void Tracker::findNewcomers(const GroupGrid& e, const TrackerParams& params) {
 void Tracker::giveFragments(const GroupGrid& e) {
   if (scale_.isUniform()) return;
   trackOfNewcomer_.assign(newcomers_.size(), -1);
+  const int64_t leastPx = clutter_.leastPx(numbers_.life.clutterSome);
   for (size_t n = 0; n < newcomers_.size(); ++n) {
     Newcomer& newcomer = newcomers_[n];
-    if (int64_t{newcomer.cells} * e.stepPx * e.stepPx < clutter_.leastPx()) continue;
+    if (int64_t{newcomer.cells} * e.stepPx * e.stepPx < leastPx) continue;
     for (size_t t = 0; t < tracks_.size() && newcomer.cells > 0; ++t) {
       if (blobOf_[t] == 0) continue;
       const Piece& blob = blobs_[blobOf_[t] - 1];
       const Box box = toPixels(blob.box, e.stepPx, e.frame);
-      if (2 * newcomer.cells > blob.cells || !belongTogether(box, newcomer.box, scale_)) continue;
+      if (newcomer.cells > numbers_.newcomers.fragment * blob.cells ||
+          !belongTogether(box, newcomer.box, scale_, numbers_.newcomers))
+        continue;
       if (areApart(e, blob.group, newcomer.group) || isComplete(t, e)) continue;
       if (!e.showsMovers && outgrows(tracks_[t], unite(box, newcomer.box))) continue;
       sightings_[t].box = unite(sightings_[t].box, newcomer.box);
@@ -148,16 +154,18 @@ void Tracker::describeNewcomers(const GroupGrid& e) {
 bool Tracker::isPartOf(const Newcomer& newcomer, const Track& track) const {
   if (!track.isConfirmed || track.unseenNs == 0 || track.sizeSamples == 0) return false;
   const Box box = track.box();
-  const Box near = inflate(box, std::max(stepPx_, std::min(box.width, box.height) / 4));
+  const Numbers::Newcomers& n = numbers_.newcomers;
+  const auto around = static_cast<int>(n.around.of(std::min(box.width, box.height)));
+  const Box near = inflate(box, std::max(stepPx_, around));
   if (intersect(near, newcomer.box) != newcomer.box) return false;
   uint32_t cells = 0, alike = 0;
   for (const auto& band : newcomer.look.bins)
     for (int bin = 0; bin < kColourBins; ++bin) {
       const uint32_t count = band[static_cast<size_t>(bin)];
       cells += count;
-      alike += shareOf(track.look, bin) > kFullMatch / 32 ? count : 0;
+      alike += shareOf(track.look, bin) > n.partColour.of(kFullMatch) ? count : 0;
     }
-  return 10 * alike >= 7 * cells;
+  return alike >= n.partAlike * cells;
 }
 
 /// Whether a newcomer moves otherwise than the track that it comes out of.
@@ -171,27 +179,33 @@ bool Tracker::comesApart(const GroupGrid& e, const Newcomer& newcomer) const {
 /// Drops what is too small to be an object here; what sticks out of a track has to be a whole one.
 void Tracker::dropSmall(const GroupGrid& e, const TrackerParams& params) {
   const int64_t cellPx = int64_t{e.stepPx} * e.stepPx;
+  const int64_t leastPx = clutter_.leastPx(numbers_.life.clutterSome);
+  const Numbers::Newcomers& least = numbers_.newcomers;
   const auto isSmall = [&](const Newcomer& n) {
     const int64_t areaPx = n.cells * cellPx;
     if (params.minAreaPx > 0) return areaPx < params.minAreaPx;
-    if (areaPx < clutter_.leastPx()) return true;
+    if (areaPx < leastPx) return true;
     if (n.isPart) return false;
     if (!scale_.isKnown()) {
       const auto parent = std::find_if(tracks_.begin(), tracks_.end(),
                                        [&](const Track& t) { return t.id == n.parent; });
       if (parent != tracks_.end() &&
-          areaPx * (isSizeKnown(*parent) || comesApart(e, n) ? 8 : 2) * kUnit * kUnit * 256 <
-              int64_t{parent->size.width} * parent->size.height * parent->fill)
+          areaPx * kUnit * kUnit * 256 <
+              (isSizeKnown(*parent) || comesApart(e, n) ? least.ofKnown : least.ofParent) *
+                  (int64_t{parent->size.width} * parent->size.height * parent->fill))
         return true;
-      return areaPx * 3000 < e.frame.area();
+      return areaPx < least.ofFrame * e.frame.area();
     }
     const Extent expected = scale_.at(n.box.bottom());
     const int64_t usual = int64_t{expected.width} * expected.height / (kUnit * kUnit);
     const int64_t height = n.box.height * int64_t{kUnit}, width = n.box.width * int64_t{kUnit};
-    if (n.isAtBorder && n.parent == 0) return 8 * areaPx < usual || 3 * height < expected.height;
+    if (n.isAtBorder && n.parent == 0)
+      return areaPx < least.atBorder * usual || height < least.atBorderHeight * expected.height;
     if (n.parent != 0 && !comesApart(e, n))
-      return 3 * areaPx < usual || 5 * height < 3 * expected.height || 2 * width < expected.width;
-    return 5 * areaPx < usual || 2 * height < expected.height || 5 * width < 2 * expected.width;
+      return areaPx < least.outOf * usual || height < least.outOfHeight * expected.height ||
+             width < least.outOfWidth * expected.width;
+    return areaPx < least.alone * usual || height < least.aloneHeight * expected.height ||
+           width < least.aloneWidth * expected.width;
   };
   // Kept in place: newcomerOf_ points here.
   for (Newcomer& newcomer : newcomers_)
@@ -207,14 +221,13 @@ void Tracker::rejoin(const GroupGrid& e) {
   missing.clear();
   for (size_t i = 0; i < tracks_.size(); ++i)
     if (!tracks_[i].isSeen) missing.push_back(i);
-  constexpr int64_t kLeaveOut = 1300;
   costs_.assign(missing.size() * newcomers_.size(), kForbidden);
   for (size_t m = 0; m < missing.size(); ++m)
     for (size_t n = 0; n < newcomers_.size(); ++n)
       if (newcomers_[n].cells > 0)
         costs_[m * newcomers_.size() + n] = rejoinCost(e, tracks_[missing[m]], newcomers_[n]);
   assignment_.solve(costs_, static_cast<int>(missing.size()), static_cast<int>(newcomers_.size()),
-                    kLeaveOut);
+                    numbers_.identity.leaveOut.whole());
   trackOfNewcomer_.assign(newcomers_.size(), -1);
   for (size_t m = 0; m < missing.size(); ++m) {
     const int n = assignment_.columnOf(static_cast<int>(m));
@@ -238,18 +251,19 @@ int64_t Tracker::rejoinCost(const GroupGrid& e, const Track& track, const Newcom
   const int64_t foot = int64_t{newcomer.box.bottom()} * kUnit;
   const int64_t dx = x - track.x, dy = foot - track.foot;
   const uint32_t far = integerSqrt(static_cast<uint64_t>(dx * dx + dy * dy));
-  // Half its height away at once, and with every second unseen one and a half heights more.
-  const int64_t gate = std::max<int64_t>(
-      1, track.size.height / 2 + track.size.height * (track.unseenNs / 1'000'000) * 3 / 2000);
+  const Numbers::Identity& n = numbers_.identity;
+  const int64_t growth = n.gateGrowth.of(track.size.height * (track.unseenNs / 1'000'000)) / 1000;
+  const int64_t gate = std::max<int64_t>(1, n.gate.of(track.size.height) + growth);
   if (far > gate) return kForbidden;
-  if (isFaithful(track) && 5 * int64_t{newcomer.box.width} * kUnit < 4 * track.size.width)
+  if (isFaithful(track) && int64_t{newcomer.box.width} * kUnit < n.part * track.size.width)
     return recognise(e, track, newcomer) ? 1000 * int64_t{far} / gate : kForbidden;
   if (newcomer.isPart && isPartOf(newcomer, track)) return 1000 * int64_t{far} / gate;
   const int64_t height = int64_t{newcomer.box.height} * kUnit;
-  if (!newcomer.isAtBorder && (2 * height < track.size.height || height > 2 * track.size.height))
+  if (!newcomer.isAtBorder &&
+      (height < n.leastHeight * track.size.height || height > n.mostHeight * track.size.height))
     return kForbidden;
   const int alike = likeness(track, newcomer);
-  if (track.isConfirmed && 5 * alike < 2 * kFullMatch) return kForbidden;
+  if (track.isConfirmed && alike < n.alike * kFullMatch) return kForbidden;
   return 1000 * int64_t{far} / gate + 1000 - 1000 * int64_t{alike} / kFullMatch;
 }
 
@@ -270,8 +284,8 @@ int Tracker::likeness(const Track& track, const Newcomer& newcomer) const {
 
 void Tracker::comeBack(const GroupGrid& e, Track& track, const Newcomer& newcomer) {
   // What comes out from behind something shows a part first.
-  const bool isPart =
-      track.centreSamples > 0 && 5 * newcomer.box.width * kUnit < 4 * track.size.width;
+  const bool isPart = track.centreSamples > 0 &&
+                      newcomer.box.width * kUnit < numbers_.identity.part * track.size.width;
   Place place{(2 * int64_t{newcomer.box.x} + newcomer.box.width) * kUnit / 2,
               int64_t{newcomer.box.bottom()} * kUnit};
   if (isPart) place = placeOfPart(track, newcomer.box, frame_);
@@ -294,11 +308,14 @@ void Tracker::comeBack(const GroupGrid& e, Track& track, const Newcomer& newcome
 /// most when it appears right beside it. 0 = none.
 uint64_t Tracker::parentOf(const Newcomer& newcomer) const {
   if (newcomer.parent != 0 || newcomer.isAtBorder) return newcomer.parent;
+  const auto beside = [&](int width) {
+    return static_cast<int>(numbers_.newcomers.besideParent.of(width));
+  };
   uint64_t parent = 0;
   int64_t most = 0;
   for (const Track& track : tracks_) {
     const Box box = track.box();
-    const int64_t shared = intersect(inflate(box, box.width / 3), newcomer.box).area();
+    const int64_t shared = intersect(inflate(box, beside(box.width)), newcomer.box).area();
     if (!track.isConfirmed || track.state == ObjectState::Lost || shared <= most) continue;
     most = shared;
     parent = track.id;
@@ -314,8 +331,8 @@ void Tracker::begin(const Newcomer& newcomer) {
   track.size = {newcomer.box.width * kUnit, newcomer.box.height * kUnit};
   if (scale_.isUniform()) {
     const Extent expected = scale_.at(newcomer.box.bottom());
-    const bool isUsual =
-        2 * track.size.width <= 3 * expected.width && 5 * track.size.height <= 7 * expected.height;
+    const bool isUsual = track.size.width <= numbers_.newcomers.usualWidth * expected.width &&
+                         track.size.height <= numbers_.newcomers.usualHeight * expected.height;
     // What comes in shows a part: the rest is beyond the border that it touches.
     if (isUsual) {
       const Box& box = newcomer.box;

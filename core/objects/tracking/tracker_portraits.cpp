@@ -10,11 +10,7 @@ namespace rg::objects {
 namespace {
 
 constexpr int kUnit = kPositionUnit;
-constexpr uint32_t kKnownPortrait = 4;  // Frames from which one can be looked for.
-constexpr uint32_t kFaithful = 160;     // Of 256: so much of a thing agrees that keeps its shape.
-constexpr uint32_t kLeastAgreeing = 8;  // Samples.
-constexpr size_t kMostSearched = 32;    // Bounds a crowd.
-constexpr int kFarFrom = 50;            // How little it matters where a hidden thing was expected.
+constexpr size_t kMostSearched = 32;  // Bounds a crowd.
 constexpr int64_t kReachNs = 100'000'000;
 
 /// The cells that a box of pixels touches.
@@ -40,14 +36,18 @@ Point Track::portraitCorner(Point camera) const {
           px(int64_t{foot} + camera.y) - sizePx.height};
 }
 
-bool Tracker::isFaithful(const Track& track) {
-  return track.portrait.frames >= kKnownPortrait && track.portrait.usual >= kFaithful;
+bool Tracker::isFaithful(const Track& track) const {
+  const Numbers::Likeness& n = numbers_.likeness;
+  return track.portrait.frames >= n.knownFrames.whole() &&
+         track.portrait.usual >= n.faithful * int64_t{256};
 }
 
 /// Whether a box of pixels is as large as a track, but for two cells or an eighth.
 bool Tracker::isAbout(const Box& box, const Track& track) const {
+  const Number about = numbers_.likeness.about;
   const auto isNear = [&](int px, int32_t size) {
-    return std::abs(int64_t{px} * kUnit - size) <= std::max<int64_t>(2 * stepPx_ * kUnit, size / 8);
+    return std::abs(int64_t{px} * kUnit - size) <=
+           std::max<int64_t>(2 * stepPx_ * kUnit, about.of(size));
   };
   return isNear(box.width, track.size.width) && isNear(box.height, track.size.height);
 }
@@ -130,11 +130,13 @@ PortraitSearch Tracker::searchOf(size_t index, int64_t stepNs) const {
   const int64_t since = std::min<int64_t>(stepNs + track.unseenNs, 10 * kReachNs);
   // A thing may turn round at once.
   const Point step = expectedShift(track, {}, stepNs);
-  const Point turn{std::min(2 * std::abs(step.x), size.width / 3),
-                   std::min(2 * std::abs(step.y), size.height / 6)};
+  const Numbers::Likeness& n = numbers_.likeness;
+  const Point turn{std::min(2 * std::abs(step.x), static_cast<int>(n.turnX.of(size.width))),
+                   std::min(2 * std::abs(step.y), static_cast<int>(n.turnY.of(size.height)))};
   const auto within = [&](int length, int turned, int frame) {
     const auto away = static_cast<int>(length * (kReachNs + since) / (10 * kReachNs));
-    return std::max(6, std::min(away + turned, frame / 8));
+    return std::max(static_cast<int>(n.leastReach.whole()),
+                    std::min(away + turned, static_cast<int>(n.mostReach.of(frame))));
   };
   const Point reach{within(size.width, turn.x, frame_.width),
                     within(size.height / 2, turn.y, frame_.height)};
@@ -143,7 +145,8 @@ PortraitSearch Tracker::searchOf(size_t index, int64_t stepNs) const {
 }
 
 PortraitMatch Tracker::findTrack(const PortraitScene& scene, const PortraitTask& task) {
-  return findPortrait(tracks_[task.track].portrait, scene, task.search, portraitScratch_);
+  return findPortrait(tracks_[task.track].portrait, scene, task.search, portraitScratch_,
+                      numbers_.likeness);
 }
 
 /// Whether one that was given its match before has taken cells where this one was looked for.
@@ -163,14 +166,16 @@ bool Tracker::isDisturbed(size_t index, const GroupGrid& e) const {
 /// again soon, something else hides it where it went on to.
 void Tracker::hide(const PortraitScene& scene, size_t index, int64_t stepNs) {
   const Track& track = tracks_[index];
-  if (track.unseenNs > kHeldNs) return;
+  if (track.unseenNs > numbers_.place.held.whole()) return;
   const Point corner = track.portraitCorner(), step = expectedShift(track, {}, stepNs);
   const Point reach{1 + std::abs(step.x), 1 + std::abs(step.y)};
   Sighting& s = sightings_[index];
   s.isBehind = true;
   s.matched = placeOfMatch(
       track, corner,
-      findPortrait(track.portrait, scene, {corner, reach, kFarFrom, {}}, portraitScratch_));
+      findPortrait(track.portrait, scene,
+                   {corner, reach, static_cast<int>(numbers_.likeness.farFrom.whole()), {}},
+                   portraitScratch_, numbers_.likeness));
 }
 
 /// What is found of a track is its own; where too little is, it is hidden.
@@ -179,11 +184,14 @@ void Tracker::giveMatch(const PortraitScene& scene, PortraitTask& task, int64_t 
   const PortraitMatch& match = task.match;
   Sighting& s = sightings_[task.track];
   // A sliver tells of what keeps its shape.
-  const uint32_t least = match.inside() / (isRigid(track) ? 32 : 16);
-  if (match.agreeing < std::max(kLeastAgreeing, least) || 2 * match.agreeing < match.seen) {
+  const Numbers::Likeness& n = numbers_.likeness;
+  const int64_t least = (isRigid(track) ? n.rigidShare : n.leastShare).of(match.inside());
+  if (match.agreeing < std::max(n.leastAgreeing.whole(), least) ||
+      match.agreeing < n.agreeing * match.seen) {
     s.task = -1;
-    if (track.unseenNs == 0) track.isBehind = 2 * match.covered >= match.samples;
-    if (track.isBehind && 4 * match.ground >= match.samples) hide(scene, task.track, stepNs);
+    if (track.unseenNs == 0) track.isBehind = match.covered >= n.covered * match.samples;
+    if (track.isBehind && match.ground >= n.onGround * match.samples)
+      hide(scene, task.track, stepNs);
     return;
   }
   const Point corner = track.portraitCorner();
@@ -208,13 +216,16 @@ std::optional<Point> Tracker::recognise(const GroupGrid& e, const Track& track,
   if (!isFaithful(track) || !e.picture) return {};
   const Size size = track.portrait.sizePx;
   const PortraitScene scene{e, *e.picture, {}};
+  const Numbers::Likeness& n = numbers_.likeness;
   std::optional<Point> best;
   uint32_t most = 0;
   for (const int x : {newcomer.box.x, newcomer.box.right() - size.width}) {
     const Point corner{x, newcomer.box.bottom() - size.height};
-    const PortraitMatch match =
-        findPortrait(track.portrait, scene, {corner, {4, 4}, kFarFrom, {}}, portraitScratch_);
-    if (8 * match.agreeing < match.samples || 4 * match.agreeing < 3 * match.seen) continue;
+    const PortraitMatch match = findPortrait(
+        track.portrait, scene, {corner, {4, 4}, static_cast<int>(n.farFrom.whole()), {}},
+        portraitScratch_, n);
+    if (match.agreeing < n.sliver * match.samples || match.agreeing < n.sliverAgreeing * match.seen)
+      continue;
     if (match.agreeing <= most) continue;
     most = match.agreeing;
     best = placeOfMatch(track, corner, match);

@@ -10,19 +10,6 @@ namespace rg::objects {
 namespace {
 
 constexpr int kUnit = kPositionUnit;
-constexpr int64_t kConfirmNs = 70'000'000;  // A new track is believed in once seen for so long,
-constexpr uint32_t kConfirmHits = 2;        // and more than once.
-constexpr uint32_t kSteadySamples = 12;
-constexpr uint32_t kSettledFrames = 3;  // What comes in keeps a height for so long: it is its own.
-constexpr int64_t kFlickerNs = 250'000'000;    // A new track that is unseen for longer was nothing.
-constexpr int64_t kDoubleNs = 500'000'000;     // One body for so long, two tracks are one.
-constexpr int64_t kOtherSizeNs = 500'000'000;  // Of another size for so long, it has changed.
-constexpr int64_t kMissNs = 400'000'000;       // Unseen for longer without a reason, it is lost.
-constexpr int64_t kClutterNs = 500'000'000;    // What was there for a shorter time may be clutter.
-// A new thing is trusted once it has moved; what creeps more slowly than its place in this time is
-// the shape of something that left, which the background takes back from its borders.
-constexpr int64_t kCreepNs = 2'000'000'000;
-constexpr int64_t kStillNs = 1'000'000'000;  // In one place for so long, it has stopped.
 
 int32_t mix(int32_t old, int64_t fresh, int64_t oldWeight) {
   return static_cast<int32_t>(divideRounded(old * oldWeight + fresh, oldWeight + 1));
@@ -66,10 +53,11 @@ void Tracker::moveWithCamera(Track& track, const CameraMotion& camera) {
 }
 
 /// Whether one end of what is seen stands while the other comes nearer: something stands before it.
-bool Tracker::goesBehind(Track& track, const Box& box) {
+bool Tracker::goesBehind(Track& track, const Box& box) const {
   const int fromLeft = closedIn(track.rightEdge, box.right(), box.x);
   const int fromRight = closedIn(track.leftEdge, box.x, box.right());
-  return std::max(fromLeft, fromRight) >= std::max(3, box.width / 32);
+  const Numbers::Sizes& n = numbers_.sizes;
+  return std::max(fromLeft, fromRight) >= std::max(n.closingPx.whole(), n.closing.of(box.width));
 }
 
 /// What comes in at the left or right shows its height before its width.
@@ -79,7 +67,8 @@ void Tracker::watchEntry(Track& track, const Sighting& s) const {
   const bool isAtEnd = box.y <= 0 || box.bottom() >= frame_.height;
   if (!track.isSeen || !s.isSole || !isAtSide || isAtEnd) return;
   const int32_t height = box.height * kUnit;
-  const bool hasStayed = 8 * std::abs(height - track.entryHeight) <= track.entryHeight;
+  const bool hasStayed =
+      std::abs(height - track.entryHeight) <= numbers_.sizes.entryHeight * track.entryHeight;
   if (hasStayed)
     countUp(track.entryFrames);
   else
@@ -98,6 +87,30 @@ Extent Tracker::sizeOfPart(const Track& track, const Box& box) const {
   return size;
 }
 
+/// Mixes in what is seen of a track that is seen whole.
+void Tracker::mixSize(Track& track, const Sighting& s) const {
+  const Numbers::Sizes& n = numbers_.sizes;
+  const Number samples = isRigid(track)       ? n.rigidSamples
+                         : scale_.isUniform() ? n.uniformSamples
+                                              : n.otherSamples;
+  const int64_t known = std::min<int64_t>(track.sizeSamples, samples.whole());
+  const int64_t weight = scale_.isUniform() ? std::max(known, n.otherSamples.whole()) : known;
+  const auto share = [](int64_t seen, int64_t usual) {
+    return std::abs(seen * kUnit - usual) * 256 / std::max<int64_t>(usual, 1);
+  };
+  const int64_t change =
+      share(s.box.width, track.size.width) + share(s.box.height, track.size.height);
+  track.sway =
+      static_cast<uint16_t>(mix(track.sway, std::min<int64_t>(change, 256), n.swaySamples.whole()));
+  track.size.width = mix(track.size.width, int64_t{s.box.width} * kUnit, weight);
+  track.size.height = mix(track.size.height, int64_t{s.box.height} * kUnit, weight);
+  countUp(track.sizeSamples);
+  if (s.boxCells > 0) {
+    const int64_t fill = std::clamp<int64_t>(int64_t{s.cells} * 256 / s.boxCells, 64, 256);
+    track.fill = static_cast<uint16_t>(mix(track.fill, fill, n.swaySamples.whole()));
+  }
+}
+
 /// From a track that was seen whole: its own size and, every half height of its way, the scene's.
 void Tracker::learnSize(size_t index, int64_t stepNs, const GroupGrid& e) {
   Track& track = tracks_[index];
@@ -110,42 +123,31 @@ void Tracker::learnSize(size_t index, int64_t stepNs, const GroupGrid& e) {
   const bool isCut = s.box.x <= frame.x || s.box.y <= frame.y || s.box.right() >= frame.right() ||
                      s.box.bottom() >= frame.bottom();
   // What is hidden in part is smaller, not larger.
+  const Numbers::Sizes& n = numbers_.sizes;
+  const auto isLargerThan = [&](int px, int64_t size) {
+    return px * kUnit - n.largerPx.whole() * kUnit > n.larger * size;
+  };
+  const auto isOtherThan = [&](int px, int64_t size) {
+    return px * kUnit < n.least * size || px * kUnit > n.most * size;
+  };
   const Extent& size = track.size;
-  const bool isLarger = 8 * s.box.width * kUnit > 9 * size.width + 16 * kUnit ||
-                        8 * s.box.height * kUnit > 9 * size.height + 16 * kUnit;
+  const bool isLarger =
+      isLargerThan(s.box.width, size.width) || isLargerThan(s.box.height, size.height);
   const bool isWrong = track.isSeen && s.isSole && !s.isWhole && !scale_.isUniform() &&
                        (isLarger || !(s.isMatched || isCut));
   track.otherNs = isWrong ? track.otherNs + stepNs : 0;
   if (s.isWhole && track.isSeen) track.usualNs += stepNs;
-  if (track.otherNs > std::max(kOtherSizeNs, track.usualNs)) track.sizeSamples = 0;
+  if (track.otherNs > std::max(n.otherSize.whole(), track.usualNs)) track.sizeSamples = 0;
   if (!s.isWhole || !track.isSeen) return;
-  const bool isOther = 5 * s.box.width * kUnit < 4 * track.size.width ||
-                       4 * s.box.width * kUnit > 5 * track.size.width ||
-                       5 * s.box.height * kUnit < 4 * track.size.height ||
-                       4 * s.box.height * kUnit > 5 * track.size.height;
+  const bool isOther =
+      isOtherThan(s.box.width, size.width) || isOtherThan(s.box.height, size.height);
   // Nothing says where it ends beside somebody else.
   const bool isShared = !scale_.isUniform() && !s.isSole;
   if (isCut || isShared || (isOther && !isSizeKnown(track))) {
     if (!isSizeKnown(track)) track.size = sizeOfPart(track, s.box);
     return;
   }
-  const int64_t known = std::min<int64_t>(track.sizeSamples, isRigid(track)       ? 24
-                                                             : scale_.isUniform() ? 12
-                                                                                  : 4);
-  const int64_t weight = scale_.isUniform() ? std::max<int64_t>(known, 4) : known;
-  const auto share = [](int64_t seen, int64_t usual) {
-    return std::abs(seen * kUnit - usual) * 256 / std::max<int64_t>(usual, 1);
-  };
-  const int64_t change =
-      share(s.box.width, track.size.width) + share(s.box.height, track.size.height);
-  track.sway = static_cast<uint16_t>(mix(track.sway, std::min<int64_t>(change, 256), 7));
-  track.size.width = mix(track.size.width, int64_t{s.box.width} * kUnit, weight);
-  track.size.height = mix(track.size.height, int64_t{s.box.height} * kUnit, weight);
-  countUp(track.sizeSamples);
-  if (s.boxCells > 0) {
-    const int64_t fill = std::clamp<int64_t>(int64_t{s.cells} * 256 / s.boxCells, 64, 256);
-    track.fill = static_cast<uint16_t>(mix(track.fill, fill, 7));
-  }
+  mixSize(track, s);
 }
 
 /// Every half height of a track's way the scene learns from the blob that the track is in, whatever
@@ -157,7 +159,8 @@ void Tracker::learnScale(const GroupGrid& e) {
   for (size_t i = 0; i < sightings_.size(); ++i) {
     Track& track = tracks_[i];
     const int64_t dx = track.x - track.learntX, dy = track.foot - track.learntFoot;
-    const int64_t half = track.size.height / (scale_.isKnown() ? 2 : 6);
+    const Numbers::Sizes& n = numbers_.sizes;
+    const int64_t half = (scale_.isKnown() ? n.learnEvery : n.learnFirst).of(track.size.height);
     if (!track.isConfirmed || blobOf_[i] == 0 || dx * dx + dy * dy < half * half) continue;
     const Box box = blobs_[blobOf_[i] - 1].box;
     if (box.x <= 0 || box.y <= 0 || box.right() >= e.grid.width || box.bottom() >= e.grid.height)
@@ -182,76 +185,13 @@ void Tracker::learnScale(const GroupGrid& e) {
 /// Whether a box is larger than a track of which the size is known from its own history.
 bool Tracker::outgrows(const Track& track, const Box& box) const {
   if (scale_.isUniform()) return false;
-  const auto isBeyond = [](int px, int64_t size) { return 4 * int64_t{px} * kUnit > 5 * size; };
+  const Numbers::Sizes& n = numbers_.sizes;
+  const auto isBeyond = [&](int px, int64_t size) {
+    return int64_t{px} * kUnit > n.outgrown * size;
+  };
   if (isSizeKnown(track))
     return isBeyond(box.width, track.size.width) || isBeyond(box.height, track.size.height);
-  return track.entryFrames >= kSettledFrames && isBeyond(box.height, track.entryHeight);
-}
-
-/// Whether two tracks keep moving at other speeds: a third of a width per second.
-bool Tracker::movesOtherwise(const Track& a, const Track& b) {
-  if (std::min(a.centreSamples, b.centreSamples) < kSteadySamples) return false;
-  const int64_t dx = a.steadyX - b.steadyX, dy = a.steadyY - b.steadyY;
-  return 3 * (std::abs(dx) + std::abs(dy)) > std::min(a.size.width, b.size.width);
-}
-
-/// Whether two tracks seem to be one body: they lie above each other as its halves do, or together
-/// show no more than one of them should.
-bool Tracker::areOneBody(const GroupGrid& e, size_t a, size_t b) const {
-  const Track &p = tracks_[a], &q = tracks_[b];
-  const Box first = p.box(), second = q.box(), both = unite(first, second);
-  const int columns = std::min(first.right(), second.right()) - std::max(first.x, second.x);
-  if (blobOf_[a] != 0 && blobOf_[b] != 0 &&
-      areApart(e, blobs_[blobOf_[a] - 1].group, blobs_[blobOf_[b] - 1].group))
-    return false;
-  if (!scale_.isUniform() && (movesOtherwise(p, q) || isComplete(a, e) || isComplete(b, e)))
-    return false;
-  if (outgrows(p, both) || outgrows(q, both)) return false;
-  if (!scale_.isUniform() && blobOf_[a] != 0 && blobOf_[a] == blobOf_[b] &&
-      std::min(p.apartNs, q.apartNs) < kDoubleNs)
-    return true;
-  if (5 * columns < 3 * std::min(first.width, second.width)) return false;
-  if (!scale_.isUniform()) {
-    const int rows = std::min(first.bottom(), second.bottom()) - std::max(first.y, second.y);
-    const int least = std::min(first.height, second.height);
-    return 5 * rows < 2 * least && 4 * rows > -least;
-  }
-  const Extent usual = scale_.at(both.bottom());
-  if (4 * both.height * kUnit < 5 * usual.height) return true;
-  const Sighting &s = sightings_[a], &t = sightings_[b];
-  const uint64_t one = uint64_t{std::max(s.boxCells, t.boxCells)} * std::max(p.fill, q.fill);
-  return 256 * uint64_t{s.cells + t.cells} * 4 < 5 * one &&
-         2 * intersect(first, second).area() > std::min(first.area(), second.area());
-}
-
-/// Ends tracks that were one body with an older one for a while.
-void Tracker::joinDoubles(const GroupGrid& e, int64_t stepNs) {
-  for (size_t b = 0; b < sightings_.size(); ++b) {
-    Track& track = tracks_[b];
-    if (!track.isSeen) continue;
-    size_t partner = b;
-    for (size_t a = 0; a < b && partner == b; ++a)
-      if (tracks_[a].isSeen && !tracks_[a].isOver && areOneBody(e, a, b)) partner = a;
-    if (partner == b) {
-      track.doubleNs = 0;
-      continue;
-    }
-    track.doubleNs += stepNs;
-    // Nothing says that it is a thing of its own when it was apart for a shorter time.
-    if (track.doubleNs < (scale_.isUniform() ? kDoubleNs : std::min(kDoubleNs, track.apartNs)))
-      continue;
-    Track& kept = tracks_[partner];
-    if (!scale_.isUniform()) {
-      const Box both = unite(kept.box(), track.box());
-      kept.x = (2 * both.x + both.width) * kUnit / 2;
-      kept.foot = both.bottom() * kUnit;
-      kept.size = {both.width * kUnit, both.height * kUnit};
-      kept.sizeSamples = 0;
-    }
-    track.isOver = true;
-    for (uint16_t& owner : owner_)
-      if (owner == b + 1) owner = static_cast<uint16_t>(partner + 1);
-  }
+  return track.entryFrames >= n.entryFrames.whole() && isBeyond(box.height, track.entryHeight);
 }
 
 /// Where all things are of one size, a track that isn't was a part of one, or several at once: its
@@ -259,12 +199,12 @@ void Tracker::joinDoubles(const GroupGrid& e, int64_t stepNs) {
 void Tracker::fitSizeToScene(Track& track) const {
   if (!scale_.isUniform() || isFaithful(track)) return;
   const Extent usual = scale_.at(track.foot / kUnit);
-  const auto limit = [](int32_t& value, int64_t expected, int64_t least, int64_t most) {
-    value = static_cast<int32_t>(
-        std::clamp<int64_t>(value, expected * least / 100, expected * most / 100));
+  const auto limit = [](int32_t& value, int64_t expected, Number least, Number most) {
+    value = static_cast<int32_t>(std::clamp<int64_t>(value, least.of(expected), most.of(expected)));
   };
-  limit(track.size.height, usual.height, 80, 130);
-  limit(track.size.width, usual.width, 65, 145);
+  const Numbers::Sizes& n = numbers_.sizes;
+  limit(track.size.height, usual.height, n.uniformHeightLeast, n.uniformHeightMost);
+  limit(track.size.width, usual.width, n.uniformWidthLeast, n.uniformWidthMost);
 }
 
 /// Whether other tracks stand in front of most of this one.
@@ -274,7 +214,7 @@ bool Tracker::isCovered(const Track& track) const {
   for (const Track& other : tracks_)
     if (other.id != track.id && other.isSeen && other.isConfirmed)
       covered += intersect(other.box(), box).area();
-  return 5 * covered >= 2 * box.area();
+  return covered >= numbers_.life.coveredBy * box.area();
 }
 
 /// Whether another track is missing where this one is: they may share what is seen.
@@ -307,11 +247,12 @@ int64_t Tracker::movedBy(const Track& track) const {
 void Tracker::settleState(Track& track, int64_t stepNs) const {
   // In the middle of the picture only what left something behind appears, and who comes out of
   // somebody: of the former more is asked.
-  const int64_t leave = track.size.height /
-                        (track.isConfirmed || track.isFromBorder || !track.parents.empty() ? 6 : 3);
+  const Numbers::Life& n = numbers_.life;
+  const bool isBelievable = track.isConfirmed || track.isFromBorder || !track.parents.empty();
+  const int64_t leave = (isBelievable ? n.leave : n.leaveNew).of(track.size.height);
   track.stillNs += stepNs;
   const bool hasLeft = movedBy(track) > leave && (track.isConfirmed || !track.isStanding);
-  if (hasLeft || (!track.isConfirmed && (track.stillNs > kCreepNs || track.isStanding))) {
+  if (hasLeft || (!track.isConfirmed && (track.stillNs > n.creep.whole() || track.isStanding))) {
     track.stillNs = 0;
     track.stillX = track.x;
     track.stillFoot = track.foot;
@@ -319,14 +260,16 @@ void Tracker::settleState(Track& track, int64_t stepNs) const {
   }
   track.hasMoved |= track.stillNs == 0 && hasLeft;
   const int64_t wayX = track.x - track.originX, wayY = track.foot - track.originFoot;
-  track.hasTravelled |= 2 * (std::abs(wayX) + std::abs(wayY)) >= track.size.width;
-  track.isConfirmed |= track.hasMoved && track.hits >= kConfirmHits && track.seenNs >= kConfirmNs;
+  track.hasTravelled |= std::abs(wayX) + std::abs(wayY) >= n.travelled * track.size.width;
+  track.isConfirmed |=
+      track.hasMoved && track.hits >= n.confirmHits.whole() && track.seenNs >= n.confirm.whole();
   if (!track.isConfirmed) return;
   if (track.isSeen)
-    track.state = track.stillNs >= kStillNs ? ObjectState::Stopped : ObjectState::Tracked;
+    track.state = track.stillNs >= n.still.whole() ? ObjectState::Stopped : ObjectState::Tracked;
   // What was seen for a moment only is not believed to be there when it isn't seen.
-  else if (isSizeKnown(track) && 2 * track.unseenNs <= track.seenNs &&
-           (track.unseenNs <= kMissNs || (track.state != ObjectState::Lost && isCovered(track))))
+  else if (isSizeKnown(track) && track.unseenNs <= n.believed * track.seenNs &&
+           (track.unseenNs <= n.miss.whole() ||
+            (track.state != ObjectState::Lost && isCovered(track))))
     track.state = ObjectState::Occluded;
   else
     track.state = ObjectState::Lost;
@@ -353,6 +296,7 @@ bool Tracker::isLeaving(const Track& track) const {
 
 /// States of all tracks; ends those that are gone and says so.
 void Tracker::settle(int64_t stepNs, const TrackerParams& params) {
+  const Numbers::Life& n = numbers_.life;
   clutter_.age(stepNs);
   if (endsAll_)
     for (const uint64_t id : told_.alive) events_.push_back({EventKind::ObjectEnd, {id}});
@@ -366,14 +310,14 @@ void Tracker::settle(int64_t stepNs, const TrackerParams& params) {
     settleState(track, stepNs);
     const Box box = track.box();
     const bool hasLeft = !track.isSeen && frame_.width > 0 &&
-                         2 * intersect(box, boundsOf(frame_)).area() < box.area();
-    const bool isOver =
-        track.isOver || hasLeft || isLeaving(track) ||
-        (track.isConfirmed ? track.unseenNs > params.maxLostNs : track.unseenNs > kFlickerNs);
+                         intersect(box, boundsOf(frame_)).area() < n.gone * box.area();
+    const bool isOver = track.isOver || hasLeft || isLeaving(track) ||
+                        (track.isConfirmed ? track.unseenNs > params.maxLostNs
+                                           : track.unseenNs > n.flicker.whole());
     if (!wasConfirmed && track.isConfirmed) tellNew(track);
     if (isOver) {
       if (track.isConfirmed) events_.push_back({EventKind::ObjectEnd, {track.id}});
-      if (!track.isOver && track.seenNs < kClutterNs)
+      if (!track.isOver && track.seenNs < n.clutter.whole())
         clutter_.learn(intersect(box, boundsOf(frame_)).area() * track.fill / 256);
       continue;
     }

@@ -137,7 +137,8 @@ void learn(Portrait& portrait, const PortraitScene& scene, Point corner, Size si
                               const PortraitSearch& where);
 
 [[nodiscard]] PortraitMatch findPortrait(const Portrait& portrait, const PortraitScene& scene,
-                                         const PortraitSearch& where, PortraitScratch& s);
+                                         const PortraitSearch& where, PortraitScratch& s,
+                                         const Numbers::Likeness& numbers = {});
 
 /// Calls visit(cell, agrees) for the cells of the grid whose middle shows a solid sample of the
 /// portrait at `corner`, is foreground and isn't taken.

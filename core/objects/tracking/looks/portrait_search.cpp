@@ -18,9 +18,7 @@ constexpr int kCoarse = 4;        // Places on either side that are tried first.
 constexpr int kGain = 8;     // Of a sample whose colour is there, at most; also the most it loses.
 constexpr int kPerGain = 4;  // Sums of three channels' differences that cost one.
 static_assert(kGain * kPerGain == kAlike);
-constexpr int kEdgeGain = 8;
-constexpr int kGroundLoss = 2;  // What hides a thing in part must not push it away.
-constexpr size_t kBlock = 32;   // Samples between two looks at what the others can gain.
+constexpr size_t kBlock = 32;  // Samples between two looks at what the others can gain.
 
 enum State : uint8_t { kOutside, kCovered, kGround, kThing };
 
@@ -71,7 +69,7 @@ Window look(const PortraitScene& scene, const Box& box, std::vector<uint8_t>& st
 
 /// The solid samples of every `skip`-th column and row.
 void listSamples(const Portrait& p, const Window& window, ptrdiff_t strideBytes, int skip,
-                 Samples& to) {
+                 int64_t edgeGain, Samples& to) {
   to.list.clear();
   const uint32_t least = p.leastWeight();
   for (int row = 0; row < p.grid.height; row += skip)
@@ -84,7 +82,7 @@ void listSamples(const Portrait& p, const Window& window, ptrdiff_t strideBytes,
   to.most.assign((to.list.size() + kBlock - 1) / kBlock, 0);
   int64_t most = 0;
   for (size_t i = to.list.size(); i-- > 0;) {
-    most += kGain + kEdgeGain * std::popcount(to.list[i].sample.edges);
+    most += kGain + edgeGain * std::popcount(to.list[i].sample.edges);
     if (i % kBlock == 0) to.most[i / kBlock] = most;
   }
 }
@@ -98,14 +96,17 @@ struct Score {
 class Finder {
  public:
   Finder(const Portrait& portrait, const PortraitScene& scene, const PortraitSearch& where,
-         PortraitScratch& scratch)
+         PortraitScratch& scratch, const Numbers::Likeness& numbers)
       : p_(portrait),
         colours_(scene.picture),
         window_(look(scene, searchedBox(portrait, scene.evidence, where), scratch.state)),
         where_(where),
+        edgeGain_(numbers.edge.whole()),
+        groundLoss_(numbers.ground.whole()),
+        distance_(numbers.distance.whole()),
         s_(scratch) {
-    listSamples(p_, window_, colours_.strideBytes(), 1, s_.all);
-    if (isLarge()) listSamples(p_, window_, colours_.strideBytes(), 2, s_.some);
+    listSamples(p_, window_, colours_.strideBytes(), 1, edgeGain_, s_.all);
+    if (isLarge()) listSamples(p_, window_, colours_.strideBytes(), 2, edgeGain_, s_.some);
     s_.looks = 0;
   }
 
@@ -149,13 +150,13 @@ class Finder {
     const ptrdiff_t pixel = corner.y * colours_.strideBytes() + corner.x;
     Score score;
     for (size_t first = 0; first < samples.list.size(); first += kBlock) {
-      const int64_t gain = score.gain - int64_t{kGroundLoss} * score.ground;
+      const int64_t gain = score.gain - groundLoss_ * score.ground;
       if (gain + samples.most[first / kBlock] < least) break;
       const size_t last = std::min(first + kBlock, samples.list.size());
       for (size_t i = first; i < last; ++i) addSample(samples.list[i], state, pixel, score);
       s_.looks += last - first;
     }
-    score.gain -= int64_t{kGroundLoss} * score.ground;
+    score.gain -= groundLoss_ * score.ground;
     return score;
   }
 
@@ -175,7 +176,7 @@ class Finder {
     const std::pair<PortraitEdge, ptrdiff_t> neighbours[] = {
         {kLeftEdge, -across}, {kRightEdge, across}, {kTopEdge, -down}, {kBottomEdge, down}};
     for (const auto& [edge, offset] : neighbours)
-      if ((solid.sample.edges & edge) != 0 && at[offset] == kGround) score.gain += kEdgeGain;
+      if ((solid.sample.edges & edge) != 0 && at[offset] == kGround) score.gain += edgeGain_;
   }
 
   [[nodiscard]] int64_t costOf(Point shift, size_t samples) const {
@@ -185,7 +186,7 @@ class Finder {
     const int64_t across = shift.x * height, down = shift.y * width;
     const int64_t far = across * across + down * down;
     // Things as large as the largest frames, unseen for an hour, reach the ends of 64 bits.
-    const int64_t weight = 9 * kGain * static_cast<int64_t>(samples);
+    const int64_t weight = distance_ * kGain * static_cast<int64_t>(samples);
     const int64_t whole = width * width * height * height;
     return std::min(far, INT64_MAX / weight) * weight /
            (whole * std::min<int64_t>(where_.calm, INT64_MAX / whole));
@@ -236,6 +237,7 @@ class Finder {
   PortraitColours colours_;
   Window window_;
   const PortraitSearch& where_;
+  int64_t edgeGain_, groundLoss_, distance_;
   PortraitScratch& s_;
 };
 
@@ -250,8 +252,9 @@ Box searchedBox(const Portrait& p, const GroupGrid& evidence, const PortraitSear
 }
 
 PortraitMatch findPortrait(const Portrait& p, const PortraitScene& scene,
-                           const PortraitSearch& where, PortraitScratch& s) {
-  return Finder(p, scene, where, s).find();
+                           const PortraitSearch& where, PortraitScratch& s,
+                           const Numbers::Likeness& numbers) {
+  return Finder(p, scene, where, s, numbers).find();
 }
 
 }  // namespace rg::objects
