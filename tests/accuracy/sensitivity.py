@@ -3,13 +3,14 @@
 """What tracking loses when one of its numbers is another.
 
 usage: sensitivity.py DATA SCORE.PY [--build FOLDER] [--still FIRST:LAST] [--pan FIRST:LAST]
-                      [--numbers NAME...] [--by PERCENT] [--gate] [--all]
+                      [--numbers NAME] [--by PERCENT] [--gate] [--all]
 
-Each number of core/objects/numbers.hpp is moved down and up (--by, default 25 percent), and tracking
-is scored on pets09_s2l1 and tud_campus of DATA by the referee SCORE.PY, and on made-up scenes still
-and panning (default 1:20 each; 0:0 leaves them out). Prints by how much the mean of MOTA and IDF1
-over the sets and IDF1 of pets09_s2l1 fall, those that matter most first (--all: every number).
---numbers  only these, as group.name or as a group
+Each number of core/objects/numbers.hpp is moved down and up (--by, default 25 percent), and
+tracking is scored on pets09_s2l1 and tud_campus of DATA by the referee SCORE.PY, and on made-up
+scenes, still and panning (default 1:20 each; 0:0 leaves them out). Prints by how much the mean of
+MOTA and IDF1 over the sets and IDF1 of pets09_s2l1 fall, those that matter most first (--all: every
+number).
+--numbers  only this one, as group.name, or a group
 --gate     exits 1 when the mean falls by more than .02 or the latter by more than .05
 """
 import argparse
@@ -133,7 +134,8 @@ def main():
     for mean, pets, name, way, change in rows if options.all else rows[:max(20, len(beyond))]:
         each = ' | '.join(f'{mota:+.3f} {idf1:+.3f}' for mota, idf1 in change.values())
         print(f'| {name} | {way * options.by:+d} | {mean:+.4f} | {pets:+.4f} | {each} |')
-    print(f'{len(beyond)} of {len(rows)} moves beyond {MOST_MEAN} of the mean or {MOST_PETS} of pets09')
+    print(f'{len(beyond)} of {len(rows)} moves are beyond {MOST_MEAN} of the mean or {MOST_PETS} '
+          'of pets09')
     print(f'without any effect either way: {", ".join(stay) or "none"}')
     sys.exit(bool(options.gate and beyond))
 
