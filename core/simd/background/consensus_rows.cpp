@@ -74,11 +74,11 @@ void smoothRow(const RowsAround& in, uint8_t* out) {
   const auto lanes = static_cast<int>(hn::Lanes(kBytes));
   const int last = in.width - 1;
   if (lanes + 2 > in.width) return plain::smoothRow(in, out);
+  plain::smoothColumns(in, 0, 1, out);
+  plain::smoothColumns(in, last, in.width, out);
   int x = 1;
   for (; x + lanes <= last; x += lanes) smoothVector(in, x, out);
   if (x < last) smoothVector(in, last - lanes, out);  // Again what the vector before ended with.
-  plain::smoothColumns(in, 0, 1, out);
-  plain::smoothColumns(in, last, in.width, out);
 }
 
 /// The samples of the columns from x on.

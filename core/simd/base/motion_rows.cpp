@@ -21,8 +21,8 @@ uint8_t smoothed(const ThreeRows& rows, int left, int at, int right) {
 void smoothRow(const ThreeRows& rows, int count, uint8_t* HWY_RESTRICT to) {
   const int last = count - 1;
   to[0] = smoothed(rows, 0, 0, count > 1 ? 1 : 0);
-  for (int i = 1; i < last; ++i) to[i] = smoothed(rows, i - 1, i, i + 1);
   if (last > 0) to[last] = smoothed(rows, last - 1, last, last);
+  for (int i = 1; i < last; ++i) to[i] = smoothed(rows, i - 1, i, i + 1);
 }
 
 // 255 · 16 · 16 + 128 < 2^16.

@@ -17,7 +17,11 @@ namespace rg::HWY_NAMESPACE {
 using plain::gatherRow;
 using plain::loadPackedRow;
 using plain::loadPlanarRow;
-using plain::loadYuvRow;
+namespace {
+int loadYuvVectors(const YuvRows&, int, const YuvToRgb&, const ColourRows&) {
+  return 0;
+}
+}  // namespace
 #else
 namespace {
 
@@ -169,7 +173,9 @@ Chroma loadChroma(const YuvRows& from, int x) {
   return {numbersOf(from.cb), numbersOf(from.cr)};
 }
 
-void loadYuvRow(const YuvRows& from, int width, const YuvToRgb& k, const ColourRows& to) {
+/// Returns how many columns fill vectors: the others are for plain::loadYuvRow(). It is not called
+/// here, as gcc 12 would leave the vectors' upper halves in use then (tests/vector_state.py).
+int loadYuvVectors(const YuvRows& from, int width, const YuvToRgb& k, const ColourRows& to) {
   const auto lanes = static_cast<int>(hn::Lanes(kBytes));
   int x = 0;
   for (; x + lanes <= width; x += lanes) {
@@ -183,9 +189,7 @@ void loadYuvRow(const YuvRows& from, int width, const YuvToRgb& k, const ColourR
     storeColour(luma, multiply(chroma.cb, k.blueByCb), to.blue + x);
     hn::StoreU(stored, kBytes, to.luma + x);
   }
-  const int chromaAt = x / 2 * from.chromaStep;
-  const YuvRows rest{from.luma + x, from.cb + chromaAt, from.cr + chromaAt, from.chromaStep};
-  plain::loadYuvRow(rest, width - x, k, after(to, x));
+  return x;
 }
 
 }  // namespace
@@ -200,7 +204,7 @@ namespace {
 HWY_EXPORT(gatherRow);
 HWY_EXPORT(loadPackedRow);
 HWY_EXPORT(loadPlanarRow);
-HWY_EXPORT(loadYuvRow);
+HWY_EXPORT(loadYuvVectors);
 
 }  // namespace
 
@@ -255,7 +259,11 @@ void simd::loadPackedRow(const uint8_t* from, int width, const PackedOrder& orde
 }
 
 void simd::loadYuvRow(const YuvRows& from, int width, const YuvToRgb& k, const ColourRows& to) {
-  HWY_DYNAMIC_DISPATCH(loadYuvRow)(from, width, k, to);
+  const int done = HWY_DYNAMIC_DISPATCH(loadYuvVectors)(from, width, k, to);
+  const int chromaAt = done / 2 * from.chromaStep;
+  plain::loadYuvRow({from.luma + done, from.cb + chromaAt, from.cr + chromaAt, from.chromaStep},
+                    width - done, k,
+                    {to.red + done, to.green + done, to.blue + done, to.luma + done});
 }
 
 }  // namespace rg
