@@ -42,6 +42,15 @@ void warpByShift(ImageView<const uint8_t> previous, Point shift, const Executor&
   });
 }
 
+static_assert(kWarpSpan == rg::simd::kWarpSpan);
+
+/// The four pixels round it, to the next sixteenth, are all in the picture.
+constexpr bool isWellInside(Size size, Point place) {
+  constexpr int kHalf = kCameraPlace / kUnit / 2;
+  return place.x >= 0 && place.x + kHalf < (size.width - 1) * kCameraPlace && place.y >= 0 &&
+         place.y + kHalf < (size.height - 1) * kCameraPlace;
+}
+
 /// A row of the frame, of which each pixel has a place of its own.
 ShownRange warpRow(ImageView<const uint8_t> previous, const CameraMotion& camera, int y,
                    uint8_t* to) {
@@ -50,6 +59,16 @@ ShownRange warpRow(ImageView<const uint8_t> previous, const CameraMotion& camera
   for (int x0 = 0; x0 < previous.width(); x0 += kWarpSpan) {
     const Point until = camera.before(x0 + kWarpSpan, y);
     const int count = std::min(kWarpSpan, previous.width() - x0);
+    if (count == kWarpSpan && isWellInside(previous.size, from) &&
+        isWellInside(previous.size, until)) {
+      if (shown.last == 0) shown.first = x0;
+      shown.last = x0 + kWarpSpan;
+      rg::simd::warpSpan(
+          {previous.data, previous.strideBytes, from.x, from.y, until.x - from.x, until.y - from.y},
+          to + x0);
+      from = until;
+      continue;
+    }
     for (int i = 0; i < count; ++i) {
       const Point place = placeBetween(from, until, i, kWarpSpan);
       if (showsPlace(previous.size, place)) {

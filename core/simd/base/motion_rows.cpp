@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/simd/base/motion_rows.hpp"
 
+#include <cstring>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/simd/base/motion_rows.cpp"
 #include <hwy/foreach_target.h>
@@ -34,6 +36,34 @@ void warpRow(const WarpRow& row, int count, uint8_t* HWY_RESTRICT to) {
     const auto above = static_cast<uint16_t>(upper[i] * left + upper[i + 1] * right);
     const auto below = static_cast<uint16_t>(lower[i] * left + lower[i + 1] * right);
     const auto sum = static_cast<uint16_t>(above * high + below * low + 128);
+    to[i] = static_cast<uint8_t>(sum >> 8);
+  }
+}
+
+void warpSpan(const WarpSpan& span, uint8_t* HWY_RESTRICT to) {
+  constexpr int kUnitBits = 4, kPlaceBits = 8, kUnit = 1 << kUnitBits;
+  constexpr int kHalf = 1 << (kPlaceBits - kUnitBits - 1), kRest = (1 << kPlaceBits) - 1;
+  int columns[kWarpSpan], rows[kWarpSpan];
+  uint16_t right[kWarpSpan], low[kWarpSpan];
+  for (int i = 0; i < kWarpSpan; ++i) {
+    const int x = span.x + span.acrossX * i / kWarpSpan + kHalf;
+    const int y = span.y + span.acrossY * i / kWarpSpan + kHalf;
+    columns[i] = x >> kPlaceBits;
+    rows[i] = y >> kPlaceBits;
+    right[i] = static_cast<uint16_t>((x & kRest) >> (kPlaceBits - kUnitBits));
+    low[i] = static_cast<uint16_t>((y & kRest) >> (kPlaceBits - kUnitBits));
+  }
+  uint8_t upper[2 * kWarpSpan], lower[2 * kWarpSpan];
+  for (int i = 0; i < kWarpSpan; ++i) {
+    const uint8_t* at = span.pixels + rows[i] * span.stride + columns[i];
+    std::memcpy(upper + 2 * i, at, 2);
+    std::memcpy(lower + 2 * i, at + span.stride, 2);
+  }
+  for (int i = 0; i < kWarpSpan; ++i) {
+    const auto left = static_cast<uint16_t>(kUnit - right[i]);
+    const auto above = static_cast<uint16_t>(upper[2 * i] * left + upper[2 * i + 1] * right[i]);
+    const auto below = static_cast<uint16_t>(lower[2 * i] * left + lower[2 * i + 1] * right[i]);
+    const auto sum = static_cast<uint16_t>(above * (kUnit - low[i]) + below * low[i] + 128);
     to[i] = static_cast<uint8_t>(sum >> 8);
   }
 }
@@ -83,6 +113,7 @@ namespace rg::simd {
 namespace {
 HWY_EXPORT(smoothRow);
 HWY_EXPORT(warpRow);
+HWY_EXPORT(warpSpan);
 HWY_EXPORT(sumBoxRow);
 HWY_EXPORT(sumDifferences);
 HWY_EXPORT(isAnySet);
@@ -98,6 +129,10 @@ void smoothRow(const ThreeRows& rows, int count, uint8_t* to) {
 
 void warpRow(const WarpRow& row, int count, uint8_t* to) {
   HWY_DYNAMIC_DISPATCH(warpRow)(row, count, to);
+}
+
+void warpSpan(const WarpSpan& span, uint8_t* to) {
+  HWY_DYNAMIC_DISPATCH(warpSpan)(span, to);
 }
 
 void sumBoxRow(const BoxRows& from, int count, uint16_t* to) {

@@ -6,6 +6,7 @@
 // vectors. So all targets, the plain one among them, give the same bits.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 namespace rg::simd {
@@ -30,6 +31,17 @@ struct WarpRow {
   int right, low;
 };
 void warpRow(const WarpRow& row, int count, uint8_t* to);
+
+/// to[i] = the mean of the four pixels round a place, weighed in sixteenths, of kWarpSpan places on
+/// a line; all of them lie within the picture.
+inline constexpr int kWarpSpan = 16;
+struct WarpSpan {
+  const uint8_t* pixels;
+  ptrdiff_t stride;
+  int x, y;              ///< Of the first place, in 1/256 px from the first pixel's middle.
+  int acrossX, acrossY;  ///< How far it is from there to the place after the last.
+};
+void warpSpan(const WarpSpan& span, uint8_t* to);
 
 /// to[i] = the sum of the boxes of 4x4 pixels from [i] on of four rows; they have 3 more columns.
 struct BoxRows {
