@@ -43,6 +43,21 @@ GType methodType() {
   return type;
 }
 
+GType cameraType() {
+  static const GEnumValue values[] = {
+      {static_cast<int>(background::Camera::Auto),
+       "Decided from frame to frame: nothing is foreground while the camera moves, and once it "
+       "has stood for a second a new model is learnt. By method=hybrid",
+       "auto"},
+      {static_cast<int>(background::Camera::Still), "It stands still, or sways and comes back",
+       "still"},
+      {static_cast<int>(background::Camera::Moving), "It moves all the time: nothing is foreground",
+       "moving"},
+      {0, nullptr, nullptr}};
+  static const GType type = registerEnum("GstRegionCamera", values);
+  return type;
+}
+
 GType searchType() {
   static const GEnumValue values[] = {
       {static_cast<int>(background::SearchScope::Frame), "The whole frame", "frame"},
@@ -73,6 +88,11 @@ struct Settings : PixelSettings,
 constexpr std::array kProperties{
     enumProperty<Settings, &Settings::method>("method", "How the background is modelled",
                                               methodType),
+    enumProperty<Settings, &Settings::camera>(
+        "camera",
+        "Whether the camera may move. In frames in which it does hsvsegment's scope=auto divides "
+        "the whole frame",
+        cameraType),
     property<Settings, &Settings::trainingFrames>(
         "training-frames",
         "Frames from which the first model is learnt. With method=paper nothing is foreground "
@@ -149,6 +169,9 @@ const char* messageOf(background::SceneEvent event) {
       return "regiongraph-too-dark";
     case background::SceneEvent::ModelLost:
       return "regiongraph-model-lost";
+    case background::SceneEvent::CameraStarted:
+    case background::SceneEvent::CameraStopped:
+      return "regiongraph-camera-moving";
   }
   return nullptr;
 }
@@ -229,6 +252,9 @@ class BgRemove final : public PixelFilter<Settings, background::Stage> {
     if (scene.event == background::SceneEvent::TooDark ||
         scene.event == background::SceneEvent::BrightAgain)
       gst_structure_set(fields, "dark", G_TYPE_BOOLEAN, scene.isDark, nullptr);
+    if (scene.event == background::SceneEvent::CameraStarted ||
+        scene.event == background::SceneEvent::CameraStopped)
+      gst_structure_set(fields, "moving", G_TYPE_BOOLEAN, scene.isCameraMoving, nullptr);
     postTimedMessage(element(), category(), moment, fields);
   }
 

@@ -132,7 +132,7 @@ class HsvSegment final : public PixelFilter<Settings, segmentation::Stage> {
       autoScope_ = findResult<background::Foreground>(frame.buffer)
                        ? segmentation::Scope::Foreground
                        : segmentation::Scope::Frame;
-    settings.scope = scopeOf(settings.scopeChoice);
+    settings.scope = scopeOf(settings.scopeChoice, frame);
     if (settings.scope != segmentation::Scope::Frame) return divideForeground(frame, settings);
     divideFrame(frame, settings);
     return GST_FLOW_OK;
@@ -160,7 +160,7 @@ class HsvSegment final : public PixelFilter<Settings, segmentation::Stage> {
     std::tie(settings_.backgroundHue, settings_.objectHue) = inForce_;
   }
 
-  [[nodiscard]] segmentation::Scope scopeOf(ScopeChoice choice) const {
+  [[nodiscard]] segmentation::Scope scopeOf(ScopeChoice choice, const FilterFrame& frame) const {
     switch (choice) {
       case ScopeChoice::Frame:
         return segmentation::Scope::Frame;
@@ -171,7 +171,9 @@ class HsvSegment final : public PixelFilter<Settings, segmentation::Stage> {
       case ScopeChoice::Auto:
         break;
     }
-    return autoScope_;
+    const auto foreground = findResult<background::Foreground>(frame.buffer);
+    const bool isCameraMoving = foreground && foreground->scene.isCameraMoving;
+    return isCameraMoving ? segmentation::Scope::Frame : autoScope_;
   }
 
   GstFlowReturn divideForeground(const FilterFrame& frame, const Settings& settings) {

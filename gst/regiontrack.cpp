@@ -5,7 +5,9 @@
  *
  * bgremove ! hsvsegment ! srg ! prmmotion ! mrfmerge in one element, for applications that take
  * one. Its properties are those of the five, under their own names; one that several have is set
- * for all of them, but for method, which is bgremove's. The children have the names of their
+ * for all of them, but for method, which is bgremove's. camera is auto here: while the camera moves
+ * the whole frame is divided, as hsvsegment does without bgremove, unless scope says otherwise. The
+ * children have the names of their
  * elements and can be reached through GstChildProxy as well (prmmotion::method); one that is none
  * is an error when the bin starts. Element messages come from the children.
  *
@@ -14,6 +16,7 @@
  *   regiontrack threshold=30 max-lost-time=4 ! regionwrite ! fakesink
  * ]|
  */
+#include "core/background/background.hpp"
 #include "gst/elements.hpp"
 #include "gst/support/filter.hpp"
 #include "gst/support/properties.hpp"
@@ -61,6 +64,10 @@ struct RegionTrack {
   std::string unknown;  ///< Asked for as a child, which there is none of.
   std::array<GstElement*, kChildren.size()> children{};  ///< The bin owns them.
 };
+
+/// Unlike bgremove by itself, behind which a mask is all that there may be.
+constexpr const char* kCamera = "camera";
+constexpr auto kCameraDefault = static_cast<int>(background::Camera::Auto);
 
 /// What is in the instance itself needs no memory of its own: to make one can't fail.
 struct Instance {
@@ -148,8 +155,10 @@ void installProxied(GObjectClass* klass) {
       g_assert(proxied.count < proxied.list.size());
       known->property = &property;
       const auto flags = static_cast<GParamFlags>(flagsOf(property.when) & ~GST_PARAM_CONTROLLABLE);
-      g_object_class_install_property(klass, proxied.count,
-                                      property.makeSpec(property, about.defaults, flags));
+      GParamSpec* spec = property.makeSpec(property, about.defaults, flags);
+      if (std::string_view(property.name) == kCamera)
+        G_PARAM_SPEC_ENUM(spec)->default_value = kCameraDefault;
+      g_object_class_install_property(klass, proxied.count, spec);
     }
   }
 }
@@ -222,6 +231,7 @@ void initInstance(GTypeInstance* instance, gpointer) {
     gst_bin_add(GST_BIN(bin), track.children[i]);
     if (i > 0) gst_element_link(track.children[i - 1], track.children[i]);
   }
+  g_object_set(track.children.front(), kCamera, kCameraDefault, nullptr);
   addGhostPad(bin, track.children.front(), "sink");
   addGhostPad(bin, track.children.back(), "src");
 }

@@ -76,8 +76,10 @@ Result<std::shared_ptr<const Foreground>> BackgroundStage::process(
                  std::to_string(size_.height) + " within a stream"};
   if (params.interest && params.interest->size() != size)
     return Error{"the mask of interest was made for another frame size"};
-  MethodModel& model = modelOf(params.method);
-  model.prepare(*picture);
+  if (params.camera == Camera::Moving)
+    model_.reset();
+  else
+    modelOf(params.method).prepare(*picture);
   size_ = size;
   isGrey_ = picture->isGrey();
   clock_.tick(time);
@@ -85,13 +87,18 @@ Result<std::shared_ptr<const Foreground>> BackgroundStage::process(
   std::shared_ptr<Foreground> out = pool_.take();
   out->size = size;
   out->scene = {};
+  out->camera = {};
+  out->cameraSince.reset();
   out->status = Status::Ok;
   out->picture = picture;
   if (out->mask.size() != size) {
     out->mask.resize(size);
     out->extent = boundsOf(size);
   }
-  model.segment({std::move(picture), params, clock_, *context_.cpu, *operations_}, *out);
+  if (model_)
+    model_->segment({std::move(picture), params, clock_, *context_.cpu, *operations_}, *out);
+  else
+    tellMoving(*out);
 
   out->interest = params.interest;
   const Box& extent = out->extent;

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "core/background/interest.hpp"
+#include "core/base/camera/camera_motion.hpp"
 #include "core/base/geometry.hpp"
 #include "core/base/memory/image.hpp"
 #include "core/base/memory/result_plane.hpp"
@@ -33,19 +34,23 @@ enum class SceneEvent : uint8_t {
   TooDark,         ///< Nothing can be seen: no foreground, nothing is learnt, until it is
   BrightAgain,     ///< bright again.
   ModelLost,       ///< A device was lost with the model in it, which starts anew on the CPU.
+  CameraStarted,  ///< The camera goes somewhere: no foreground is told, nothing is learnt, until it
+  CameraStopped,  ///< stands still again. The model starts anew.
 };
 
 /// Does the picture look otherwise from this frame on?
 [[nodiscard]] constexpr bool isAnotherView(SceneEvent event) {
   return event == SceneEvent::LightSwitched || event == SceneEvent::ColourSwitched ||
-         event == SceneEvent::CameraMoved;
+         event == SceneEvent::CameraMoved || event == SceneEvent::CameraStarted ||
+         event == SceneEvent::CameraStopped;
 }
 
 struct Scene {
   SceneEvent event = SceneEvent::None;  ///< What happened in this very frame.
   uint32_t foregroundPx = 0;
-  bool isDark = false;  ///< Since TooDark, until BrightAgain.
-  Point shift;          ///< By how much the camera looks off the model in this frame, in pixels.
+  bool isDark = false;          ///< Since TooDark, until BrightAgain.
+  bool isCameraMoving = false;  ///< Since CameraStarted, until CameraStopped, or as was asked for.
+  Point shift;  ///< By how much the camera looks off the model in this frame, in pixels.
 };
 
 /// What bgremove says of one frame. Immutable once published.
@@ -58,9 +63,12 @@ struct Foreground {
   std::vector<Box> areas;  ///< Bounding boxes of the foreground's 8-connected parts.
   std::shared_ptr<const Image<uint8_t>> interest;  ///< As in the parameters.
   Scene scene;
+  CameraMotion camera;                         ///< Since `cameraSince`, where it was looked for.
+  std::shared_ptr<const Picture> cameraSince;  ///< None where it was not.
 
   void dropSources() {
     picture.reset();
+    cameraSince.reset();
     interest.reset();
   }
 };
@@ -69,6 +77,13 @@ enum class Method : uint8_t {
   Hybrid,           ///< Multi-modal model, hysteresis, shadow and ghost removal.
   Paper,            ///< Section 2.2.1 to the letter.
   FrameDifference,  ///< Section 2.1: what changed since the frame before, and what stopped since.
+};
+
+/// What a still camera's background can be told of.
+enum class Camera : uint8_t {
+  Auto,    ///< Decided from frame to frame, by method hybrid; the others take it to stand still.
+  Still,   ///< It stands still, or sways and comes back.
+  Moving,  ///< Nothing is foreground.
 };
 
 /// Where method frame-difference looks. Both find the same, bit for bit.
@@ -85,6 +100,7 @@ enum class ThresholdSource : uint8_t {
 
 struct Params {
   Method method = Method::Hybrid;
+  Camera camera = Camera::Still;
   int trainingFrames = 50;      ///< Frames from which the first model is learnt. 1 … 65535.
   double learningTimeS = 10.0;  ///< Time constant of the running update, in seconds.
   int threshold = 0;  ///< Least difference of a channel, in grey levels; 0 = found by the method.

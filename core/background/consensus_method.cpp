@@ -2,6 +2,7 @@
 // Method hybrid, the default: adaptive sample consensus. Each pixel remembers colours that it had
 // (models/consensus_background.hpp), and decides by itself how near is near; round that lies the
 // paper's structure: validation, shadows, what stands still.
+#include "core/background/camera_watch.hpp"
 #include "core/background/method.hpp"
 
 #include <algorithm>
@@ -43,7 +44,7 @@ class ConsensusMethod final : public MethodModel {
  public:
   void prepare(const Picture& picture) override;
   void segment(const MethodJob& job, Foreground& out) override;
-  void breakOff() override {}
+  void breakOff() override { camera_.breakOff(); }
 
  private:
   bool isFirst(const MethodJob& job) const {
@@ -60,6 +61,8 @@ class ConsensusMethod final : public MethodModel {
   SceneEvent followCamera(const MethodJob& job);
   SceneEvent followLight(const MethodJob& job);
   bool isElsewhere(const MethodJob& job);
+  [[nodiscard]] bool cameraStarts(const MethodJob& job);
+  void goAlong(Foreground& out) const;
   void clean(const MethodJob& job);
   void refine(const MethodJob& job);
   void findShadow(const MethodJob& job);
@@ -88,6 +91,7 @@ class ConsensusMethod final : public MethodModel {
   uint32_t calmFrames_ = kEver;   ///< Since the camera was off its place.
   uint32_t offFrames_ = 0;        ///< It has been off by the same shift.
   uint32_t elsewhereFrames_ = 0;  ///< The picture has differed everywhere.
+  CameraWatch camera_;
 };
 
 void ConsensusMethod::prepare(const Picture& picture) {
@@ -109,6 +113,7 @@ void ConsensusMethod::start(const MethodJob& job, Foreground& out) {
   sways_ = false;
   gain_ = kSameGain;
   offFrames_ = elsewhereFrames_ = 0;
+  camera_.passOver();
   out.status = Status::Training;
   out.mask.fill(kBackgroundPixel);
 }
@@ -240,8 +245,7 @@ void ConsensusMethod::watch(const MethodJob& job, uint64_t differing, Foreground
   if (isElsewhere(job)) event = SceneEvent::CameraMoved;
 }
 
-/// Most of the picture is foreground: is it the known scene in
-/// another light, or another scene?
+/// Most of the picture is foreground: is it the known scene in another light, or another scene?
 SceneEvent ConsensusMethod::followLight(const MethodJob& job) {
   const auto pixels = static_cast<uint64_t>(smooth_.size().area());
   const uint64_t before = job.on.countSet(verdicts_.raw);
@@ -259,12 +263,29 @@ SceneEvent ConsensusMethod::followLight(const MethodJob& job) {
   return before * 256 < pixels * kOtherSceneShare ? SceneEvent::None : SceneEvent::CameraMoved;
 }
 
+/// A model that is being learnt does not say much of the camera, which is looked at in any case
+/// then.
+bool ConsensusMethod::cameraStarts(const MethodJob& job) {
+  if (job.params.camera != Camera::Auto) return false;
+  const bool isOff = job.on.isEverywhere(verdicts_.raw);
+  if (isOff || isFirst(job)) return camera_.starts(isOff, job.executor);
+  camera_.passOver();
+  return false;
+}
+
+/// The stages behind need not look for the camera's motion once more.
+void ConsensusMethod::goAlong(Foreground& out) const {
+  tellMoving(out);
+  out.camera = camera_.motion();
+  out.cameraSince = camera_.since();
+}
+
 uint32_t leastStrongPx(uint32_t pixels) {
   return std::max(4u, pixels / 10000);
 }
 
-/// Not at the start: what is left of those who were in view must not
-/// stick to those who are, and is told from them by its contour.
+/// Not at the start: what is left of those who were in view must not stick to those who are, and is
+/// told from them by its contour.
 void ConsensusMethod::refine(const MethodJob& job) {
   const auto pixels = static_cast<uint32_t>(mask_.size().area());
   job.on.growFaint({smooth_, model_, verdicts_.faint, shown_}, mask_);
@@ -332,6 +353,13 @@ void ConsensusMethod::learnFrame(const MethodJob& job) {
 
 void ConsensusMethod::segment(const MethodJob& job, Foreground& out) {
   out.extent = boundsOf(job.picture->size());
+  camera_.show(job.params.camera == Camera::Auto ? job.picture : nullptr);
+  if (camera_.isMoving()) {
+    if (!camera_.stops(job.clock, job.executor)) return goAlong(out);
+    out.scene.event = SceneEvent::CameraStopped;
+    job.on.smooth(*job.picture, smooth_);
+    return start(job, out);
+  }
   if (model_.channels == 0) {
     job.on.smooth(*job.picture, smooth_);
     if (!isTooDark(job, out)) start(job, out);
@@ -345,6 +373,10 @@ void ConsensusMethod::segment(const MethodJob& job, Foreground& out) {
   const uint64_t differing = job.on.countSet(verdicts_.raw);
   if ((isDark_ || differing * 256 >= pixels * kLightShare) && isTooDark(job, out)) return;
   watch(job, differing, out);
+  if (cameraStarts(job)) {
+    out.scene.event = SceneEvent::CameraStarted;
+    return goAlong(out);
+  }
   if (startsAnew(out.scene.event)) {
     job.on.smooth(*job.picture, smooth_);
     return start(job, out);

@@ -18,6 +18,13 @@ struct MethodJob {
   Operations& on;  ///< Of method hybrid.
 };
 
+/// While the camera moves nothing of the picture stands still.
+inline void tellMoving(Foreground& out) {
+  out.extent = boundsOf(out.size);
+  out.mask.fill(kBackgroundPixel);
+  out.scene.isCameraMoving = true;
+}
+
 class MethodModel {
  public:
   virtual ~MethodModel() = default;

@@ -163,6 +163,11 @@ GstRegionSceneEvent gst_region_foreground_meta_get_scene_event(GstRegionForegrou
   return static_cast<GstRegionSceneEvent>(scene.event);  // In the same order.
 }
 
+gboolean gst_region_foreground_meta_is_camera_moving(GstRegionForegroundMeta* meta) {
+  g_return_val_if_fail(meta, FALSE);
+  return resultOf<rg::background::Foreground>(meta).scene.isCameraMoving;
+}
+
 guint gst_region_foreground_meta_get_n_areas(GstRegionForegroundMeta* meta) {
   g_return_val_if_fail(meta, 0);
   return static_cast<guint>(resultOf<rg::background::Foreground>(meta).areas.size());

@@ -24,19 +24,6 @@
 
 G_BEGIN_DECLS
 
-#ifndef GST_REGION_API
-#define GST_REGION_API extern
-#endif
-
-/* The metas' types, for allocation queries and for iterating over a buffer's metas. From GStreamer
- * 1.24 on metas go along with buffers to other processes; who receives them without an element of
- * the plugin asks for the types first. */
-GST_REGION_API GType gst_region_foreground_meta_api_get_type(void);
-GST_REGION_API GType gst_region_labels_meta_api_get_type(void);
-GST_REGION_API GType gst_region_graph_meta_api_get_type(void);
-GST_REGION_API GType gst_region_motion_meta_api_get_type(void);
-GST_REGION_API GType gst_region_objects_meta_api_get_type(void);
-
 /**
  * gst_buffer_get_region_foreground_meta:
  * @buffer: a buffer that passed bgremove
@@ -93,6 +80,15 @@ GST_REGION_API GstRegionStatus gst_region_foreground_meta_get_status(GstRegionFo
  */
 GST_REGION_API GstRegionSceneEvent gst_region_foreground_meta_get_scene_event(
     GstRegionForegroundMeta* meta, gint* shift_x, gint* shift_y);
+/**
+ * gst_region_foreground_meta_is_camera_moving:
+ * @meta: a foreground meta
+ *
+ * Returns: whether the camera moves, as bgremove's property camera has it: nothing is foreground
+ *
+ * Since: 0.2
+ */
+GST_REGION_API gboolean gst_region_foreground_meta_is_camera_moving(GstRegionForegroundMeta* meta);
 /**
  * gst_region_foreground_meta_get_n_areas:
  * @meta: a foreground meta

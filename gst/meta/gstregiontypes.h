@@ -1,11 +1,15 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
-/* The values that the functions of gstregiongraph.h read from metas. */
+/* The metas, and the values that the functions of gstregiongraph.h read from them. */
 #ifndef GST_REGION_TYPES_H
 #define GST_REGION_TYPES_H
 
-#include <glib.h>
+#include <glib-object.h>
 
 G_BEGIN_DECLS
+
+#ifndef GST_REGION_API
+#define GST_REGION_API extern
+#endif
 
 /**
  * GstRegionStatus:
@@ -30,6 +34,8 @@ typedef enum {
  * @GST_REGION_SCENE_EVENT_BRIGHT_AGAIN: the end of that
  * @GST_REGION_SCENE_EVENT_MODEL_LOST: a GPU was lost with the background model in it, which starts
  *   anew on the CPU
+ * @GST_REGION_SCENE_EVENT_CAMERA_STARTED: from here on the camera moves, and nothing is foreground
+ * @GST_REGION_SCENE_EVENT_CAMERA_STOPPED: the end of that
  */
 typedef enum {
   GST_REGION_SCENE_EVENT_NONE,
@@ -39,7 +45,9 @@ typedef enum {
   GST_REGION_SCENE_EVENT_CAMERA_SHAKEN,
   GST_REGION_SCENE_EVENT_TOO_DARK,
   GST_REGION_SCENE_EVENT_BRIGHT_AGAIN,
-  GST_REGION_SCENE_EVENT_MODEL_LOST
+  GST_REGION_SCENE_EVENT_MODEL_LOST,
+  GST_REGION_SCENE_EVENT_CAMERA_STARTED,
+  GST_REGION_SCENE_EVENT_CAMERA_STOPPED
 } GstRegionSceneEvent;
 
 /**
@@ -195,6 +203,15 @@ typedef struct _GstRegionLabelsMeta GstRegionLabelsMeta;
 typedef struct _GstRegionGraphMeta GstRegionGraphMeta;
 typedef struct _GstRegionMotionMeta GstRegionMotionMeta;
 typedef struct _GstRegionObjectsMeta GstRegionObjectsMeta;
+
+/* The metas' types, for allocation queries and for iterating over a buffer's metas. From GStreamer
+ * 1.24 on metas go along with buffers to other processes; who receives them without an element of
+ * the plugin asks for the types first. */
+GST_REGION_API GType gst_region_foreground_meta_api_get_type(void);
+GST_REGION_API GType gst_region_labels_meta_api_get_type(void);
+GST_REGION_API GType gst_region_graph_meta_api_get_type(void);
+GST_REGION_API GType gst_region_motion_meta_api_get_type(void);
+GST_REGION_API GType gst_region_objects_meta_api_get_type(void);
 
 G_END_DECLS
 

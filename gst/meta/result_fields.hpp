@@ -40,7 +40,8 @@ void pass(Archive& archive, T& camera) {
 template <class Archive, Like<background::Foreground> T>
 void pass(Archive& archive, T& result) {
   archive(result.size, result.status, result.mask, result.extent, result.areas, result.scene.event,
-          result.scene.foregroundPx, result.scene.isDark, result.scene.shift);
+          result.scene.foregroundPx, result.scene.isDark, result.scene.isCameraMoving,
+          result.scene.shift);
 }
 
 template <class Archive, Like<segmentation::Labels> T>
@@ -100,7 +101,7 @@ constexpr int lastOf(Status) {
   return static_cast<int>(Status::Skipped);
 }
 constexpr int lastOf(background::SceneEvent) {
-  return static_cast<int>(background::SceneEvent::BrightAgain);
+  return static_cast<int>(background::SceneEvent::CameraStopped);
 }
 constexpr int lastOf(segmentation::Scope) {
   return static_cast<int>(segmentation::Scope::Areas);

@@ -172,6 +172,46 @@ TEST(Pipeline, DarknessIsToldOnTheBusAndInTheMeta) {
   EXPECT_EQ(elementMessages(chain), std::vector<std::string>{"regiongraph-too-dark"});
 }
 
+TEST(Pipeline, ACameraThatIsTurnedIsToldOnTheBusAndInTheMetaAndTheWholeFrameIsDivided) {
+  const Caps caps{"GRAY8", 160, 120};
+  Chain chain("bgremove camera=auto ! hsvsegment", caps);
+  const auto show = [&](int frame, int shift) {
+    return chain.pass(testing::paint(caps, frame, [=](int x, int y) {
+      return static_cast<uint8_t>(
+          40 +
+          mixHash(static_cast<uint32_t>(x + shift) / 9, static_cast<uint32_t>(y) / 9, 5) % 160);
+    }));
+  };
+  const auto scopeOf = [](GstBuffer* buffer) {
+    return gst_region_labels_meta_get_scope(gst_buffer_get_region_labels_meta(buffer));
+  };
+  const auto isMoving = [](GstBuffer* buffer) {
+    return gst_region_foreground_meta_is_camera_moving(
+        gst_buffer_get_region_foreground_meta(buffer));
+  };
+  for (int frame = 0; frame < 30; ++frame) (void)show(frame, 0);
+  EXPECT_TRUE(elementMessages(chain).empty());
+  const BufferPtr before = show(30, 0);
+  EXPECT_FALSE(isMoving(before.get()));
+  EXPECT_EQ(scopeOf(before.get()), GST_REGION_SCOPE_FOREGROUND);
+  BufferPtr during;
+  for (int frame = 31; frame < 40; ++frame) during = show(frame, 20 * (frame - 30));
+  EXPECT_TRUE(isMoving(during.get()));
+  EXPECT_EQ(scopeOf(during.get()), GST_REGION_SCOPE_FRAME);
+  EXPECT_EQ(elementMessages(chain), std::vector<std::string>{"regiongraph-camera-moving"});
+  BufferPtr after;
+  for (int frame = 40; frame < 70; ++frame) after = show(frame, 20 * 9);
+  EXPECT_FALSE(isMoving(after.get()));
+  EXPECT_EQ(scopeOf(after.get()), GST_REGION_SCOPE_FOREGROUND);
+  const MessagePtr message = chain.message(GST_MESSAGE_ELEMENT);
+  ASSERT_TRUE(message);
+  gboolean moving = TRUE;
+  const GstStructure* fields = gst_message_get_structure(message.get());
+  EXPECT_STREQ(gst_structure_get_name(fields), "regiongraph-camera-moving");
+  EXPECT_TRUE(gst_structure_get_boolean(fields, "moving", &moving));
+  EXPECT_FALSE(moving);
+}
+
 TEST(Pipeline, AMovingCameraIsTold) {
   const Caps caps{"GRAY8", 160, 120};
   Chain chain("hsvsegment ! srg ! prmmotion ! mrfmerge", caps);

@@ -41,6 +41,23 @@ TEST(RegionTrack, SaysWhatTheFiveElementsSay) {
   EXPECT_EQ(story("regiontrack"), five);
 }
 
+TEST(RegionTrack, DecidesByItselfWhetherTheCameraMoves) {
+  GstElement* bin = gst_element_factory_make("regiontrack", nullptr);
+  GstElement* alone = gst_element_factory_make("bgremove", nullptr);
+  auto* spec = g_object_class_find_property(G_OBJECT_GET_CLASS(bin), "camera");
+  ASSERT_TRUE(spec);
+  int camera = -1, ofChild = -1, byItself = -1;
+  g_object_get(bin, "camera", &camera, nullptr);
+  gst_child_proxy_get(GST_CHILD_PROXY(bin), "bgremove::camera", &ofChild, nullptr);
+  g_object_get(alone, "camera", &byItself, nullptr);
+  EXPECT_EQ(camera, static_cast<int>(background::Camera::Auto));
+  EXPECT_EQ(ofChild, camera);
+  EXPECT_EQ(G_PARAM_SPEC_ENUM(spec)->default_value, camera);
+  EXPECT_EQ(byItself, static_cast<int>(background::Camera::Still));
+  gst_object_unref(alone);
+  gst_object_unref(bin);
+}
+
 TEST(RegionTrack, HasAChildForEachElementUnderItsName) {
   GstElement* bin = gst_element_factory_make("regiontrack", nullptr);
   auto* proxy = GST_CHILD_PROXY(bin);

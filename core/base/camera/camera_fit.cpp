@@ -167,17 +167,24 @@ CameraModel solveFor(Freedom freedom, std::span<const Sample> samples,
   return modelOf(freedom, found);
 }
 
-/// Sets how well each sample fits. Returns the votes that are left unexplained.
-double explain(const CameraModel& model, std::span<const Sample> samples, double alike,
-               double limit, std::span<Weights> weights) {
-  double cost = 0;
+/// Votes.
+struct Explained {
+  double left = 0;  ///< Those that are left unexplained.
+  double sure = 0;  ///< Of those that are explained, what is known along both directions.
+};
+
+/// Sets how well each sample fits.
+Explained explain(const CameraModel& model, std::span<const Sample> samples, double alike,
+                  double limit, std::span<Weights> weights) {
+  Explained all;
   for (size_t i = 0; i < samples.size(); ++i) {
     Weights& w = weights[i];
     const double share = 1 / (1 + squaredMiss(model, samples[i], w, alike) / (limit * limit));
     w.fitting = share * share;
-    cost += w.vote * (1 - share);
+    all.left += w.vote * (1 - share);
+    all.sure += w.sure * share;
   }
-  return cost;
+  return all;
 }
 
 CameraModel similarityThrough(const Sample& p, const Sample& q) {
@@ -218,8 +225,9 @@ class Starts {
 
   void consider(const CameraModel& model) {
     constexpr double kLimit = 2;
-    double support = 0;
-    for (size_t i = 0; i < samples_.size(); i += step_) {
+    double support = 0, open = all_;
+    for (size_t i = 0; i < samples_.size() && support + open > most_; i += step_) {
+      open -= weights_[i].vote;
       const double share =
           1 - squaredMiss(model, samples_[i], weights_[i], alike_) / (kLimit * kLimit);
       if (share > 0) support += weights_[i].vote * share;
@@ -274,14 +282,15 @@ CameraFit fitCamera(std::span<const CameraSample> samples, const CameraFitRules&
                                 Freedom::Affinity, Freedom::Homography}) {
     CameraModel model = freedom == Freedom::None ? CameraModel() : starts.best();
     for (int step = first; step < kSteps && freedom != Freedom::None; ++step) {
-      explain(model, samples, rules.alike, 2.0 - step * .25, s.weights);
+      (void)explain(model, samples, rules.alike, 2.0 - step * .25, s.weights);
       model = solveFor(freedom, samples, s.weights, rules.alike, model);
     }
-    const double left = explain(model, samples, rules.alike, .5, s.weights);
-    const double cost = left + kFreedomCost * static_cast<int>(freedom);
+    const Explained explained = explain(model, samples, rules.alike, .5, s.weights);
+    const double cost = explained.left + kFreedomCost * static_cast<int>(freedom);
     if (!isTame(model) || cost >= least) continue;
     least = cost;
-    unexplained = left;
+    unexplained = explained.left;
+    fit.sure = explained.sure;
     fit.model = model;
   }
   if (fit.votes > 0) fit.explained = 1 - unexplained / fit.votes;

@@ -59,6 +59,7 @@ struct CameraFit {
   CameraModel model;
   double explained = 0;  ///< Share of the votes that agree with it.
   double votes = 0;      ///< All of them.
+  double sure = 0;       ///< Samples that agree, each as far as it knows both directions.
 };
 
 [[nodiscard]] CameraFit fitCamera(std::span<const CameraSample> samples,

@@ -56,6 +56,7 @@ void setCovariance(const BlockSums& sums, double variance, double unit, CameraSa
 void CameraSearch::reset() {
   nowOf_.reset();
   last_ = {};
+  agreement_ = 0;
 }
 
 void CameraSearch::reduce(const Picture& picture, const Executor& executor, Reduced& to) const {
@@ -221,6 +222,7 @@ CameraMotion CameraSearch::find(const std::shared_ptr<const Picture>& current,
   nowOf_ = current;
   frame_ = CameraFrame::of(now_.small.size());
   grid_ = BlockGrid::of(now_.small.size());
+  agreement_ = 0;
   if (grid_.count() == 0) return {};
   CameraFit fit = approach(last_, executor);
   if (fit.explained < kEnough) {
@@ -230,6 +232,7 @@ CameraMotion CameraSearch::find(const std::shared_ptr<const Picture>& current,
   }
   const CameraModel& model = fit.model;
   last_ = model;
+  agreement_ = fit.sure / grid_.count();
   // The small picture's middle is not quite the picture's.
   const double places = side_, half = frame_.half * places;
   const CameraFrame full{frame_.middleX * places + (places - 1) / 2,

@@ -30,6 +30,8 @@ class CameraSearch {
   [[nodiscard]] CameraMotion find(const std::shared_ptr<const Picture>& current,
                                   const std::shared_ptr<const Picture>& previous,
                                   const Executor& executor);
+  /// Share of the picture that knows its motion and agrees with what was found last, 0 … 1.
+  [[nodiscard]] double agreement() const { return agreement_; }
   /// The next frame has nothing to do with those before.
   void reset();
 
@@ -56,6 +58,7 @@ class CameraSearch {
   Reduced now_, before_;
   std::shared_ptr<const Picture> nowOf_;  ///< Whose pictures now_ holds.
   CameraModel last_;
+  double agreement_ = 0;
   std::vector<uint32_t> differences_;  ///< Of each shift of the tiny pictures.
   std::vector<Point> shifts_;
   std::vector<BlockMatch> matches_;
