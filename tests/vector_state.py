@@ -18,12 +18,13 @@ FUNCTION = re.compile(r'^[0-9a-f]+ <(.*)>:$')
 INSTRUCTION = re.compile(r'^ *([0-9a-f]+):\t(\S+) *(.*)$')
 UPPER = re.compile(r'%[yz]mm(?:\d|1[0-5])\b')
 TARGET = re.compile(r'([0-9a-f]+) <')
-RESULT = re.compile(r'\b__stack_chk_fail\b')  # It does not come back.
+ENDLESS = re.compile(r'\b__stack_chk_fail\b')  # It does not come back.
 
 
 def functions(file):
-    text = subprocess.run(['objdump', '-d', '-C', '--no-show-raw-insn', file], capture_output=True,
-                          text=True, check=True, env={'LC_ALL': 'C', 'PATH': '/usr/bin:/bin'}).stdout
+    command = ['objdump', '-d', '-C', '--no-show-raw-insn', file]
+    text = subprocess.run(command, capture_output=True, text=True, check=True,
+                          env={'LC_ALL': 'C', 'PATH': '/usr/bin:/bin'}).stdout
     name, body = None, []
     for line in text.splitlines():
         if begins := FUNCTION.match(line):
@@ -56,7 +57,7 @@ def ends_in_use(body):
             goes_to = at.get(int(target[1], 16)) if target else None
             is_jump = operation.startswith('j')
             leaves = operation in ('ret', 'call') or (operation == 'jmp' and goes_to is None)
-            if leaves and in_use and not RESULT.search(operands):
+            if leaves and in_use and not ENDLESS.search(operands):
                 found.add(f'{operation} {operands[:90]}')
             if is_jump and goes_to is not None:
                 work.append((goes_to, in_use))

@@ -29,9 +29,10 @@ class MotionStage final : public Stage {
   }
 
  private:
+  [[nodiscard]] CameraMotion cameraOf(const graph::Graph& graph);
   void match(const graph::Graph& graph, const Params& params, Motion& motion);
   void search(const graph::Graph& graph, const Picture& before, const Params& params,
-              std::span<RegionMotion> motion);
+              const WholeShifts& out);
   void searchBeyondCamera(const graph::Graph& graph, const Params& params, Motion& motion);
   void matchLiterally(const graph::Graph& graph, int maxShift, Motion& motion);
 
@@ -69,17 +70,24 @@ Result<std::shared_ptr<const Motion>> MotionStage::process(
   return std::shared_ptr<const Motion>(motion);
 }
 
+/// As bgremove has found it, where it has looked.
+CameraMotion MotionStage::cameraOf(const graph::Graph& graph) {
+  const background::Foreground* found = graph.labels->foreground.get();
+  const bool isKnown = found && found->cameraSince == previous_ && found->picture == graph.picture;
+  return isKnown ? found->camera : camera_.find(graph.picture, previous_, *context_.cpu);
+}
+
 void MotionStage::match(const graph::Graph& graph, const Params& params, Motion& motion) {
   const int maxShift = std::clamp(params.maxShiftPx, 1, kMostReach - 1);
-  if (graph.labels->scope == segmentation::Scope::Frame)
-    motion.camera = camera_.find(graph.picture, previous_, *context_.cpu);
+  if (graph.labels->scope == segmentation::Scope::Frame) motion.camera = cameraOf(graph);
   if (params.method == Method::Literal) return matchLiterally(graph, maxShift, motion);
   blocks_.find(graph, *context_.cpu);
   if (blocks_.parts().empty()) return;
+  isStill_.assign(motion.regions.size(), 0);
   // What moves so far that a thing which the camera follows may still be found is searched as it
   // was: without a trace of interpolation.
   if (2 * furthestMotion(motion.camera, motion.size) <= maxShift * kMotionUnit)
-    search(graph, *previous_, params, motion.regions);
+    search(graph, *previous_, params, {motion.regions, isStill_});
   else
     searchBeyondCamera(graph, params, motion);
   for (const MatchedPart& part : blocks_.parts()) {
@@ -89,28 +97,24 @@ void MotionStage::match(const graph::Graph& graph, const Params& params, Motion&
 }
 
 void MotionStage::search(const graph::Graph& graph, const Picture& before, const Params& params,
-                         std::span<RegionMotion> motion) {
-  isStill_.assign(motion.size(), 0);
+                         const WholeShifts& out) {
   const int maxShift = std::clamp(params.maxShiftPx, 1, kMostReach - 1);
-  operations_->searchShifts({*graph.picture, before, blocks_, maxShift}, {motion, isStill_});
+  operations_->searchShifts({*graph.picture, before, blocks_, maxShift}, out);
   if (params.isSubpixel)
-    refinement_.run(graph, blocks_, before, operations_->previousLuma(), *context_.cpu, motion);
+    refinement_.run(graph, blocks_, before, operations_->previousLuma(), *context_.cpu, out.motion);
 }
 
 /// In the previous frame as a fast camera makes it look now, and as it was, where what the camera
-/// follows is found.
+/// follows is found: that is what matches better there.
 void MotionStage::searchBeyondCamera(const graph::Graph& graph, const Params& params,
                                      Motion& motion) {
   view_.show(previous_->luma(), motion.camera, *context_.cpu);
-  search(graph, view_.picture(), params, motion.regions);
+  search(graph, view_.picture(), params, {motion.regions, isStill_});
   view_.addCamera(graph, blocks_, motion.regions);
-  inFrame_.assign(motion.regions.size(), {});
-  search(graph, *previous_, params, inFrame_);
-  for (size_t i = 0; i < inFrame_.size(); ++i) {
-    const RegionMotion &beyond = motion.regions[i], &plain = inFrame_[i];
-    const bool isBetter = plain.sad != beyond.sad ? plain.sad < beyond.sad : plain.reliability > 0;
-    if (isBetter) motion.regions[i] = plain;
-  }
+  inFrame_.assign(motion.regions.size(), {.sad = kNotMatched});
+  search(graph, *previous_, params, {inFrame_, isStill_, motion.regions});
+  for (size_t i = 0; i < inFrame_.size(); ++i)
+    if (inFrame_[i].sad != kNotMatched) motion.regions[i] = inFrame_[i];
 }
 
 void MotionStage::matchLiterally(const graph::Graph& graph, int maxShift, Motion& motion) {

@@ -30,6 +30,8 @@ inline constexpr int kMotionFractionBits = 4;  ///< Vectors are in 1/16 px.
 inline constexpr int kMotionUnit = 1 << kMotionFractionBits;
 inline constexpr int kFullReliability = 256;
 
+inline constexpr uint64_t kNotMatched = UINT64_MAX;  ///< A SAD: nothing has been found.
+
 struct RegionMotion {
   int32_t dx = 0;  ///< In 1/16 px, from the previous frame to this one.
   int32_t dy = 0;

@@ -86,6 +86,8 @@ void MotionRefinement::run(const graph::Graph& graph, const MatchedBlocks& block
   const auto count = static_cast<int>(motion.size());
   executor.forEach(count, [&](int index) {
     const auto i = static_cast<size_t>(index);
+    own_[i] = {};
+    if (motion[i].sad == kNotMatched) return;
     alone_[i] = fitAlone(regionOf(i, motion), motion[i]);
     const Information& known = alone_[i].fit.information;
     const int64_t trust = motion[i].reliability;
@@ -96,8 +98,9 @@ void MotionRefinement::run(const graph::Graph& graph, const MatchedBlocks& block
   const std::span<const MotionPrior> priors = consensus_.run(graph, own_, executor);
   executor.forEach(count, [&](int index) {
     const auto i = static_cast<size_t>(index);
-    const FitRegion region = regionOf(i, motion);
     RegionMotion& result = motion[i];
+    if (result.sad == kNotMatched) return;
+    const FitRegion region = regionOf(i, motion);
     const MotionFit fit = fitTogether(region, alone_[i], priors[i], result.reliability);
     result.reliability = static_cast<uint16_t>(judge(result.reliability, region, fit, priors[i]));
     result.dx = static_cast<int>(divideRounded(fit.at.x, kFinePerUnit));
@@ -105,11 +108,13 @@ void MotionRefinement::run(const graph::Graph& graph, const MatchedBlocks& block
   });
 }
 
-// What was the current picture last time is mostly the previous one now.
+// What was the current picture last time is mostly the previous one now, or still the current one.
 void MotionRefinement::smooth(const Picture& before, int reach, const Executor& executor) {
-  std::swap(smoothCurrent_, smoothPrevious_);
-  if (smoothOf_.get() != &before || smoothPrevious_.reach() != reach)
+  const bool hasCurrent = smoothOf_ == graph_->picture && smoothCurrent_.reach() == reach;
+  if (!hasCurrent) std::swap(smoothCurrent_, smoothPrevious_);
+  if (hasCurrent || smoothOf_.get() != &before || smoothPrevious_.reach() != reach)
     smoothPrevious_.buildSmooth(before.luma(), reach, executor);
+  if (hasCurrent) return;
   smoothOf_ = graph_->picture;
   smoothCurrent_.buildSmooth(smoothOf_->luma(), reach, executor);
 }

@@ -25,7 +25,8 @@ namespace rg::motion {
 class MotionRefinement {
  public:
   /// `previous`: the luma of the frame before, padded. Replaces the vectors in `motion`, whole
-  /// pixels; regions without matched blocks take over the consensus.
+  /// pixels; regions without matched blocks take over the consensus. Those that are kNotMatched
+  /// stay so, and say nothing to their neighbours.
   void run(const graph::Graph& graph, const MatchedBlocks& blocks, const Picture& before,
            const PaddedLuma& previous, const Executor& executor, std::span<RegionMotion> motion);
 

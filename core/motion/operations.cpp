@@ -16,13 +16,15 @@ void Operations::searchShifts(const MatchedFrames& frames, const WholeShifts& ou
     const auto parts = frames.blocks.partsOf(label);
     if (parts.empty()) return;
     out.isStill[i] = isUnchanged(parts, luma, before);
-    const ShiftRange range =
+    ShiftRange range =
         out.isStill[i] != 0 ? kStillRange : ShiftRange{frames.maxShiftPx, frames.maxShiftPx + 1};
+    if (!out.elsewhere.empty()) range.mostSum = static_cast<uint32_t>(out.elsewhere[i].sad);
     const FoundShift found =
         motion::searchShifts(parts, luma, searched_, range, scratch_[static_cast<size_t>(thread)]);
+    if (!found.isWithin) return;
     const GradientProducts& gradients = frames.blocks.gradientsOf(label);
-    out.motion[i] = estimateMotion(
-        found, {gradients.xx, gradients.xy, gradients.yy, frames.blocks.pixelsOf(label)});
+    out.take(i, estimateMotion(found, {gradients.xx, gradients.xy, gradients.yy,
+                                       frames.blocks.pixelsOf(label)}));
   });
 }
 

@@ -30,6 +30,18 @@ struct MatchedFrames {
 struct WholeShifts {
   std::span<RegionMotion> motion;
   std::span<uint8_t> isStill;  ///< None of its matched pixels has changed.
+  /// What has been found of them elsewhere, if they have been looked for: regions that do not match
+  /// better stay as they are, too.
+  std::span<const RegionMotion> elsewhere{};
+
+  void take(size_t region, const RegionMotion& found) const {
+    if (elsewhere.empty() || isBetter(found, elsewhere[region])) motion[region] = found;
+  }
+
+ private:
+  [[nodiscard]] static constexpr bool isBetter(const RegionMotion& a, const RegionMotion& b) {
+    return a.sad != b.sad ? a.sad < b.sad : a.reliability > 0;
+  }
 };
 
 /// Each does what the function of its name does; this class does it on the CPU.

@@ -60,6 +60,8 @@ FoundShift searchShiftsPlainly(std::span<const MatchedPart> parts, ImageView<con
         best = std::min(best, {sums.back(), dx * dx + dy * dy, dy, dx});
     }
   FoundShift found;
+  found.isWithin = std::get<0>(best) <= range.mostSum;
+  if (!found.isWithin) return found;
   found.d = {std::get<3>(best), std::get<2>(best)};
   found.mean = static_cast<uint32_t>(bounds / sums.size());
   for (int dy = -reach; dy <= reach; ++dy)

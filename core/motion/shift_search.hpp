@@ -31,6 +31,7 @@ struct FoundShift {
   /// at random leaves, at that scale.
   uint32_t mean = 0;
   bool isBeaten = false;  ///< By a shift that may not be the best one.
+  bool isWithin = true;   ///< The best sum is at most the range's mostSum. Else nothing is told.
 
   [[nodiscard]] constexpr int64_t sum(int dx = 0, int dy = 0) const {
     return sums[static_cast<size_t>(3 * (dy + 1) + dx + 1)];
@@ -41,6 +42,7 @@ struct FoundShift {
 struct ShiftRange {
   int maxShift = 0;
   int reach = 0;
+  uint32_t mostSum = UINT32_MAX;  ///< A best sum above it is not told.
 };
 
 /// Blocks of 4x1 pixels and boxes of a region, and where in the previous picture, without a shift.

@@ -70,7 +70,7 @@ class GpuOperations final : public Cpu, private Dispatcher {
     fetchList(motion, static_cast<uint32_t>(count), motions_);
     for (size_t i = 0; i < regions_.size(); ++i) {
       out.isStill[regions_[i]] = stills_[i];
-      out.motion[regions_[i]] = motions_[i];
+      out.take(regions_[i], motions_[i]);
     }
   }
 

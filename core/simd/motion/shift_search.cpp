@@ -146,10 +146,13 @@ class Search {
 
   FoundShift run() {
     FoundShift found;
-    found.mean = findBounds();
+    const uint32_t mean = findBounds();
     sumGroup(groupOfLeastBound());
     sumGroup(groupAt(range_.reach, range_.reach));
-    sumGroups([this] { return leastInside_; });
+    sumGroups([this] { return std::min(leastInside_, range_.mostSum); });
+    found.isWithin = leastInside_ <= range_.mostSum;
+    if (!found.isWithin) return found;
+    found.mean = mean;
     const Point best = findBest();
     found.d = {range_.reach - best.x, range_.reach - best.y};
     found.isBeaten = least_ < leastInside_;

@@ -74,7 +74,29 @@ void expectExhaustive(const Image<uint8_t>& before, const Image<uint8_t>& now,
       EXPECT_EQ(found.rival, right.rival);
       EXPECT_EQ(found.mean, right.mean);
       EXPECT_EQ(found.isBeaten, right.isBeaten);
+      EXPECT_TRUE(found.isWithin);
     }
+  });
+}
+
+/// With a limit at the best sum all is found as without; with a lower one nothing is.
+void expectLimited(const Image<uint8_t>& before, const Image<uint8_t>& now,
+                   const std::vector<motion::MatchedPart>& parts, motion::ShiftRange range) {
+  const motion::SearchedPicture previous = searched(before, range.reach + 1);
+  const motion::FoundShift right = motion::searchShiftsPlainly(parts, now, previous, range);
+  const auto least = static_cast<uint32_t>(right.sum());
+  test::forEachTarget([&] {
+    motion::SearchScratch scratch;
+    range.mostSum = least;
+    const motion::FoundShift found = motion::searchShifts(parts, now, previous, range, scratch);
+    EXPECT_TRUE(found.isWithin);
+    EXPECT_EQ(found.d, right.d);
+    EXPECT_EQ(found.sums, right.sums);
+    EXPECT_EQ(found.rival, right.rival);
+    if (least == 0) return;
+    range.mostSum = least - 1;
+    EXPECT_FALSE(motion::searchShifts(parts, now, previous, range, scratch).isWithin);
+    EXPECT_FALSE(motion::searchShiftsPlainly(parts, now, previous, range).isWithin);
   });
 }
 
@@ -89,6 +111,8 @@ TEST(ShiftSearch, FindsWhatTheExhaustiveOneFindsInAnyPicture) {
       SCOPED_TRACE(std::to_string(c.size.width) + " wide, fill " + std::to_string(kind));
       expectExhaustive(test::filled(c.size, (kind + 1) % test::kFills), test::filled(c.size, kind),
                        raggedParts(c.size), c.range);
+      expectLimited(test::filled(c.size, (kind + 1) % test::kFills), test::filled(c.size, kind),
+                    raggedParts(c.size), c.range);
     }
 }
 
