@@ -3,6 +3,7 @@
 
 #include "core/background/method.hpp"
 #include "core/base/components.hpp"
+#include "core/base/memory/operations_source.hpp"
 #include "core/base/memory/pool.hpp"
 #include "core/base/renewed_stage.hpp"
 #include "core/base/row_spans.hpp"
@@ -17,7 +18,7 @@ namespace {
 class BackgroundStage final : public Stage {
  public:
   explicit BackgroundStage(Context context)
-      : context_(std::move(context)), operations_(makeOperations(context_)) {}
+      : context_(std::move(context)), operations_(makeOperations<Operations>(context_)) {}
 
   Result<std::shared_ptr<const Foreground>> process(std::shared_ptr<const Picture> picture,
                                                     const Params& params, FrameTime time) override;

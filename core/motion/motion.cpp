@@ -2,6 +2,7 @@
 #include "core/motion/motion.hpp"
 
 #include "core/base/camera/camera_search.hpp"
+#include "core/base/memory/operations_source.hpp"
 #include "core/base/memory/pool.hpp"
 #include "core/base/renewed_stage.hpp"
 #include "core/motion/camera/camera_view.hpp"
@@ -19,7 +20,7 @@ namespace {
 class MotionStage final : public Stage {
  public:
   explicit MotionStage(Context context)
-      : context_(std::move(context)), operations_(makeOperations(context_)) {}
+      : context_(std::move(context)), operations_(makeOperations<Operations>(context_)) {}
 
   Result<std::shared_ptr<const Motion>> process(std::shared_ptr<const graph::Graph> graph,
                                                 const Params& params) override;

@@ -26,10 +26,4 @@ void Operations::searchShifts(const MatchedFrames& frames, const WholeShifts& ou
   });
 }
 
-std::unique_ptr<Operations> makeOperations(const Context& context) {
-  auto* source = dynamic_cast<OperationsSource*>(context.device.get());
-  if (source != nullptr && context.device->isUp()) return source->motionOperations(*context.cpu);
-  return std::make_unique<Operations>(*context.cpu);
-}
-
 }  // namespace rg::motion

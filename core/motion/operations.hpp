@@ -5,14 +5,12 @@
 
 #include "core/base/memory/executor.hpp"
 #include "core/base/picture.hpp"
-#include "core/base/stage.hpp"
 #include "core/motion/matched_blocks.hpp"
 #include "core/motion/motion.hpp"
 #include "core/motion/padded_luma.hpp"
 #include "core/motion/shift_search.hpp"
 
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <vector>
 
@@ -57,16 +55,5 @@ class Operations {
   SearchedPicture searched_;
   std::vector<SearchScratch> scratch_;
 };
-
-/// A device that has operations of this room.
-class OperationsSource {
- public:
-  virtual ~OperationsSource() = default;
-  /// They live shorter than both. Throws std::bad_alloc.
-  [[nodiscard]] virtual std::unique_ptr<Operations> motionOperations(const Executor& executor) = 0;
-};
-
-/// The device's, where there is one that works and has some, else the CPU's.
-[[nodiscard]] std::unique_ptr<Operations> makeOperations(const Context& context);
 
 }  // namespace rg::motion

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "kernels/backend/motion_operations.hpp"
-
 #include "kernels/backend/dispatcher.hpp"
 #include "kernels/motion_estimate.hpp"
 #include "kernels/shift_search.hpp"
@@ -99,10 +97,10 @@ class GpuOperations final : public Cpu, private Dispatcher {
 };
 
 }  // namespace
-
-std::unique_ptr<rg::motion::Operations> makeOperations(GpuDevice& device,
-                                                       const Executor& executor) {
-  return std::make_unique<GpuOperations>(device, executor);
-}
-
 }  // namespace rg::gpu::motion
+
+template <>
+std::unique_ptr<rg::motion::Operations> rg::gpu::operationsOn(GpuDevice& device,
+                                                              const Executor& executor) {
+  return std::make_unique<motion::GpuOperations>(device, executor);
+}

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "kernels/backend/segmentation_operations.hpp"
-
 #include "core/segmentation/segmentation.hpp"
 #include "kernels/backend/dispatcher.hpp"
 #include "kernels/bit_mask.hpp"
@@ -249,10 +247,10 @@ class GpuOperations final : public Cpu, private Dispatcher {
 };
 
 }  // namespace
-
-std::unique_ptr<rg::segmentation::Operations> makeOperations(GpuDevice& device,
-                                                             const Executor& executor) {
-  return std::make_unique<GpuOperations>(device, executor);
-}
-
 }  // namespace rg::gpu::segmentation
+
+template <>
+std::unique_ptr<rg::segmentation::Operations> rg::gpu::operationsOn(GpuDevice& device,
+                                                                    const Executor& executor) {
+  return std::make_unique<segmentation::GpuOperations>(device, executor);
+}
