@@ -201,7 +201,7 @@ class BgRemove final : public PixelFilter<Settings, background::Stage> {
   }
 
   [[nodiscard]] bool hasKernels(const Settings& settings) const override {
-    return settings.method == background::Method::Hybrid;
+    return settings.method != background::Method::FrameDifference;
   }
   [[nodiscard]] const char* lossOfDevice() const override {
     return ", with a new background model.";

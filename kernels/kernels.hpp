@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/background/mask_cleaning.hpp"
+#include "core/background/methods/paper_masks.hpp"
 #include "core/background/models/frame_difference.hpp"
 #include "kernels/absorption.hpp"
 #include "kernels/bit_mask.hpp"
@@ -30,6 +31,7 @@
 #include "kernels/motion_evidence.hpp"
 #include "kernels/object_pixels.hpp"
 #include "kernels/operations.hpp"
+#include "kernels/paper_masks.hpp"
 #include "kernels/picture.hpp"
 #include "kernels/picture_blocks.hpp"
 #include "kernels/region_comparison.hpp"

@@ -58,6 +58,10 @@
   X(testGaussian, rg::background::testGaussian, rg::gpu::background::testGaussian)          \
   X(updateGaussian, rg::background::updateGaussian, rg::gpu::background::updateGaussian)    \
   X(paintMean, rg::background::paintMean, rg::gpu::background::paintMean)                   \
+  X(keepAbove, rg::background::keepAbove, rg::gpu::background::keepAbove)                   \
+  X(keepBoth, rg::background::keepBoth, rg::gpu::background::keepBoth)                      \
+  X(joinFound, rg::background::joinFound, rg::gpu::background::joinFound)                   \
+  X(fillLines, rg::background::fillLines, rg::gpu::background::fillLines)                   \
   X(differ, rg::background::differ, rg::gpu::background::differ)                            \
   X(measureChange, rg::background::measureChange, rg::gpu::background::measureChange)       \
   X(markChange, rg::background::markChange, rg::gpu::background::markChange)                \

@@ -47,10 +47,10 @@ class BackgroundStage final : public Stage {
   Pool<Foreground> pool_;
 };
 
-std::unique_ptr<MethodModel> makeModel(Method method) {
+std::unique_ptr<MethodModel> makeModel(Method method, const Context& context) {
   switch (method) {
     case Method::Paper:
-      return makePaperMethod();
+      return makePaperMethod(context);
     case Method::FrameDifference:
       return makeDifferenceMethod();
     case Method::Hybrid:
@@ -62,7 +62,7 @@ std::unique_ptr<MethodModel> makeModel(Method method) {
 /// Another method starts anew: the models have nothing in common.
 MethodModel& BackgroundStage::modelOf(Method method) {
   if (!model_ || method_ != method) {
-    model_ = makeModel(method);
+    model_ = makeModel(method, context_);
     method_ = method;
   }
   return *model_;

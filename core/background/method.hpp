@@ -30,7 +30,7 @@ class MethodModel {
   virtual void breakOff() = 0;
 };
 
-[[nodiscard]] std::unique_ptr<MethodModel> makePaperMethod();
+[[nodiscard]] std::unique_ptr<MethodModel> makePaperMethod(const Context& context);
 [[nodiscard]] std::unique_ptr<MethodModel> makeConsensusMethod();
 [[nodiscard]] std::unique_ptr<MethodModel> makeDifferenceMethod();
 

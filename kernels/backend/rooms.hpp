@@ -2,6 +2,7 @@
 // The operations of core's rooms on a device, each made in the file of its name.
 #pragma once
 
+#include "core/background/methods/paper_operations.hpp"
 #include "core/background/operations.hpp"
 #include "core/base/memory/executor.hpp"
 #include "core/base/memory/operations_source.hpp"
@@ -22,6 +23,9 @@ template <class Operations>
 template <>
 std::unique_ptr<rg::background::Operations> operationsOn(GpuDevice& device,
                                                          const Executor& executor);
+template <>
+std::unique_ptr<rg::background::PaperOperations> operationsOn(GpuDevice& device,
+                                                              const Executor& executor);
 template <>
 std::unique_ptr<rg::segmentation::Operations> operationsOn(GpuDevice& device,
                                                            const Executor& executor);
@@ -44,8 +48,8 @@ class RoomSource : public OperationsSource<Operations> {
 template <class... Operations>
 class RoomSources : public RoomSource<Operations>... {};
 
-using AllRooms =
-    RoomSources<rg::background::Operations, rg::segmentation::Operations, rg::graph::Operations,
-                rg::motion::Operations, rg::objects::Operations>;
+using AllRooms = RoomSources<rg::background::Operations, rg::background::PaperOperations,
+                             rg::segmentation::Operations, rg::graph::Operations,
+                             rg::motion::Operations, rg::objects::Operations>;
 
 }  // namespace rg::gpu

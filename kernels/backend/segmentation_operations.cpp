@@ -9,7 +9,6 @@
 #include "kernels/mask_gaps.hpp"
 #include "kernels/primitives.hpp"
 #include "kernels/region_division.hpp"
-#include "kernels/runtime.hpp"
 #include "kernels/scopes.hpp"
 
 #include <algorithm>
@@ -114,9 +113,7 @@ class GpuOperations final : public Cpu, private Dispatcher {
     fillUnedged(picture.readOn(device()).green, kMostGapStep, mostGapPx(size), view, whole,
                 stream());
     const ImageView<uint8_t> out = scope.writeOn(device());
-    runtime::clear(out.data,
-                   static_cast<size_t>(out.strideBytes) * static_cast<size_t>(out.height()),
-                   stream());
+    clear(out);
     paint(whole, rg::background::kForegroundPixel, out, stream());
   }
 
