@@ -37,6 +37,7 @@
 #include "kernels/region_comparison.hpp"
 #include "kernels/region_division.hpp"
 #include "kernels/region_graph.hpp"
+#include "kernels/scene_memory.hpp"
 #include "kernels/scene_watch.hpp"
 #include "kernels/scopes.hpp"
 #include "kernels/shadow.hpp"

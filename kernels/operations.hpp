@@ -64,9 +64,11 @@
   X(fillLines, rg::background::fillLines, rg::gpu::background::fillLines)                   \
   X(differ, rg::background::differ, rg::gpu::background::differ)                            \
   X(measureChange, rg::background::measureChange, rg::gpu::background::measureChange)       \
-  X(markChange, rg::background::markChange, rg::gpu::background::markChange)                \
-  X(addStrange, rg::background::addStrange, rg::gpu::background::addStrange)                \
-  X(keepDense, rg::background::keepDense, rg::gpu::background::keepDense)                   \
+  X(countScene, rg::background::countScene, rg::gpu::background::countScene)                \
+  X(searchCells, rg::background::CellSearch, rg::gpu::background::searchCells)              \
+  X(sumOutlines, rg::background::sumOutline, rg::gpu::background::sumOutlines)              \
+  X(keepDenseInCells, rg::background::keepDense, rg::gpu::background::keepDenseInCells)     \
+  X(learnScene, rg::background::DifferenceOperations, rg::gpu::background::learnScene)      \
   X(findShadows, rg::background::findShadows, rg::gpu::background::findShadows)             \
   X(keepCastShadows, rg::background::keepCastShadows, rg::gpu::background::keepCastShadows) \
   X(classifyHues, rg::segmentation::classifyHues, rg::gpu::segmentation::classifyHues)      \

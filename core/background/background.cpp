@@ -52,7 +52,7 @@ std::unique_ptr<MethodModel> makeModel(Method method, const Context& context) {
     case Method::Paper:
       return makePaperMethod(context);
     case Method::FrameDifference:
-      return makeDifferenceMethod();
+      return makeDifferenceMethod(context);
     case Method::Hybrid:
       break;
   }

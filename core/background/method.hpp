@@ -15,7 +15,7 @@ struct MethodJob {
   const Params& params;
   const FrameClock& clock;
   const Executor& executor;
-  Operations& on;  ///< Of method hybrid.
+  Operations& on;  ///< Of method hybrid; the others have their own.
 };
 
 class MethodModel {
@@ -32,6 +32,6 @@ class MethodModel {
 
 [[nodiscard]] std::unique_ptr<MethodModel> makePaperMethod(const Context& context);
 [[nodiscard]] std::unique_ptr<MethodModel> makeConsensusMethod();
-[[nodiscard]] std::unique_ptr<MethodModel> makeDifferenceMethod();
+[[nodiscard]] std::unique_ptr<MethodModel> makeDifferenceMethod(const Context& context);
 
 }  // namespace rg::background

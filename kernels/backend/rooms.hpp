@@ -2,6 +2,7 @@
 // The operations of core's rooms on a device, each made in the file of its name.
 #pragma once
 
+#include "core/background/methods/difference_operations.hpp"
 #include "core/background/methods/paper_operations.hpp"
 #include "core/background/operations.hpp"
 #include "core/base/memory/executor.hpp"
@@ -27,6 +28,9 @@ template <>
 std::unique_ptr<rg::background::PaperOperations> operationsOn(GpuDevice& device,
                                                               const Executor& executor);
 template <>
+std::unique_ptr<rg::background::DifferenceOperations> operationsOn(GpuDevice& device,
+                                                                   const Executor& executor);
+template <>
 std::unique_ptr<rg::segmentation::Operations> operationsOn(GpuDevice& device,
                                                            const Executor& executor);
 // All that the other rooms' read is on the host, too: even a lost device costs nothing.
@@ -48,8 +52,9 @@ class RoomSource : public OperationsSource<Operations> {
 template <class... Operations>
 class RoomSources : public RoomSource<Operations>... {};
 
-using AllRooms = RoomSources<rg::background::Operations, rg::background::PaperOperations,
-                             rg::segmentation::Operations, rg::graph::Operations,
-                             rg::motion::Operations, rg::objects::Operations>;
+using AllRooms =
+    RoomSources<rg::background::Operations, rg::background::PaperOperations,
+                rg::background::DifferenceOperations, rg::segmentation::Operations,
+                rg::graph::Operations, rg::motion::Operations, rg::objects::Operations>;
 
 }  // namespace rg::gpu

@@ -44,6 +44,11 @@ const std::vector<background::Params> kOthers = [] {
   others.push_back(others.back());
   others.back().findsShadows = false;
   others.back().threshold = 15;
+  others.push_back(quick(background::Method::FrameDifference));
+  others.push_back(others.back());
+  others.back().search = background::SearchScope::Frame;
+  others.back().thresholdFrom = background::ThresholdSource::Frame;
+  others.back().searchInterval = 1;
   return others;
 }();
 

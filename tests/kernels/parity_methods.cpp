@@ -197,54 +197,6 @@ void parity_differ() {
   });
 }
 
-void parity_markChange() {
-  forPairs([](const Picture& a, const Picture& b) {
-    for (const int threshold : {0, 7, 254, 255}) {
-      Image<uint8_t> expected(a.size());
-      for (int y = 0; y < a.size().height; ++y)
-        background::markChange(background::planesOf(a), background::planesOf(b), rowOf(a.size(), y),
-                               threshold, expected.row(y));
-      Plane<uint8_t> out(a.size());
-      gpu::background::markChange(planesOf(a), planesOf(b), threshold, out, nullptr);
-      out.expect(expected.view(), "change");
-    }
-  });
-}
-
-void parity_addStrange() {
-  forPairs([](const Picture& a, const Picture& b) {
-    Image<uint8_t> expected(a.size()), isKnown(a.size());
-    for (Image<uint8_t>* image : {&expected, &isKnown}) image->fill(0);
-    paint(scattered(a.size(), 2), 255, expected);
-    paint(scattered(a.size(), 6), 255, isKnown);
-    Plane<uint8_t> out(expected.view()), known(isKnown.view());
-    for (int y = 0; y < a.size().height; ++y)
-      background::addStrange(background::planesOf(a), background::planesOf(b), rowOf(a.size(), y),
-                             9, isKnown.row(y), expected.row(y));
-    gpu::background::addStrange(planesOf(a), planesOf(b), 9, known, out, nullptr);
-    out.expect(expected.view(), "strange");
-  });
-}
-
-void parity_keepDense() {
-  for (const Size size : kSizes) {
-    // Core reads one column and row beyond what it is asked about.
-    Image<uint8_t> framed({size.width + 2, size.height + 2}), expected(framed.size());
-    framed.fill(0);
-    const BitMask mask = scattered(size, 5);
-    for (int y = 0; y < size.height; ++y)
-      for (int x = 0; x < size.width; ++x)
-        framed.at(x + 1, y + 1) = static_cast<uint8_t>(mask.at(x, y) ? 255 : 0);
-    for (int y = 1; y <= size.height; ++y)
-      background::keepDense(framed.row(y - 1), framed.row(y), framed.row(y + 1),
-                            runOf(y, 1, size.width + 1), expected.row(y));
-    const Box inside{1, 1, size.width, size.height};
-    Plane<uint8_t> marked(std::as_const(framed).view().crop(inside)), out(size);
-    gpu::background::keepDense(marked, out, nullptr);
-    out.expect(std::as_const(expected).view().crop(inside), "dense");
-  }
-}
-
 namespace {
 
 /// A plane of 0 and 255, dense or with few pixels set.
