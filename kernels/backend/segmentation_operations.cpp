@@ -81,10 +81,6 @@ class GpuOperations final : public Cpu, private Dispatcher {
   }
   uint32_t divide(const Picture& picture, Scoped scope, const GrowthLimits& limits,
                   Image<uint16_t>& ids) override {
-    // Growing by HSV is for comparisons with the paper, and has no kernel.
-    if (limits.space != rg::segmentation::ColourSpace::Rgb)
-      return onHost([&] { return Cpu::divide(picture, scope, limits, ids); }, ReadsIfAny{scope},
-                    Writes{ids});
     return ask<uint32_t>(
         [&](uint32_t* count) { divideOnDevice(picture, scope, limits, count, ids); },
         [&] { return Cpu::divide(picture, scope, limits, ids); }, ReadsIfAny{scope}, Writes{ids});
@@ -192,10 +188,12 @@ class GpuOperations final : public Cpu, private Dispatcher {
                                            uint32_t* count) {
     const Size size = cells.colours.size();
     const Planes colours = cells.colours;
+    const bool isByHsv = limits.space == rg::segmentation::ColourSpace::Hsv;
     const LinkTargets links{scratchPlane<uint8_t>(size), scratchPlane<uint8_t>(size),
-                            scratchPlane<int16_t>(size)};
-    linkColours(colours, cells.scope, {plan.similarity, limits.minAreaPx > 1, {}}, band, links,
-                stream());
+                            scratchPlane<int16_t>(size),
+                            isByHsv ? scratchPlanes(size, 2) : PlaneTargets{}};
+    linkColours(colours, cells.scope, {plan.similarity, limits.minAreaPx > 1, {}, limits.space},
+                band, links, stream());
     const GroupsView linked = groups(size);
     groupLinked(links.links, cells.scope, plan.runs, cells.sidePx, linked, stream());
     const DivisionView view = division(linked, size, wanted, count);
