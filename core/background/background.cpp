@@ -92,6 +92,7 @@ Result<std::shared_ptr<const Foreground>> BackgroundStage::process(
     out->mask.resize(size);
     out->extent = boundsOf(size);
   }
+  out->mask.changeOnHost();  // Readers may have had copies of what it was.
   model.segment({std::move(picture), params, clock_, *context_.cpu, *operations_}, *out);
 
   out->interest = params.interest;

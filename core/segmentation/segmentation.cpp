@@ -71,6 +71,7 @@ Result<std::shared_ptr<const Labels>> SegmentationStage::process(
   labels->status = foreground ? foreground->status : Status::Ok;
   labels->scope = params.scope;
   labels->ids.resize(labels->size);
+  labels->ids.writeOnHost();  // Readers may have had copies of what they were.
   const auto maxRegions = static_cast<uint32_t>(std::clamp(params.maxRegions, 1, kMostRegions));
 
   const Scoped scope = decideByHue(*picture, foreground.get(), params.hue,
