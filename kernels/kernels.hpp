@@ -24,6 +24,7 @@
 #include "kernels/histogram.hpp"
 #include "kernels/hues.hpp"
 #include "kernels/light_switch.hpp"
+#include "kernels/literal_search.hpp"
 #include "kernels/mask_cleaning.hpp"
 #include "kernels/mask_contour.hpp"
 #include "kernels/mask_gaps.hpp"

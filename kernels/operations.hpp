@@ -93,6 +93,8 @@
   X(findStill, rg::motion::isUnchanged, rg::gpu::motion::findStill)                         \
   X(sumGradients, rg::motion::sumGradients, rg::gpu::motion::sumGradients)                  \
   X(estimateMotion, rg::motion::estimateMotion, rg::gpu::motion::estimateMotion)            \
+  X(sumAllShifts, rg::motion::sumAllShifts, rg::gpu::motion::sumAllShifts)                  \
+  X(matchAllPixels, rg::motion::matchAllPixels, rg::gpu::motion::matchAllPixels)            \
   X(compareRegions, rg::objects::compareRegions, rg::gpu::objects::compareRegions)          \
   X(carryEvidence, rg::objects::carryEvidence, rg::gpu::objects::carryEvidence)             \
   X(addEvidence, rg::objects::addEvidence, rg::gpu::objects::addEvidence)                   \

@@ -5,6 +5,8 @@
 
 #include "core/base/memory/executor.hpp"
 #include "core/base/picture.hpp"
+#include "core/graph/graph.hpp"
+#include "core/motion/literal_search.hpp"
 #include "core/motion/matched_blocks.hpp"
 #include "core/motion/motion.hpp"
 #include "core/motion/padded_luma.hpp"
@@ -40,6 +42,9 @@ class Operations {
 
   /// isUnchanged(), searchShifts() and estimateMotion() of each region that has matched blocks.
   virtual void searchShifts(const MatchedFrames& frames, const WholeShifts& out);
+  /// matchAllPixels() of each region of the graph, for shifts of up to maxShiftPx.
+  virtual void matchAllPixels(const graph::Graph& graph, const Picture& previous, int maxShiftPx,
+                              std::span<RegionMotion> motion);
   /// The previous picture's luma as searchShifts() has padded it.
   [[nodiscard]] const PaddedLuma& previousLuma() const { return searched_.luma; }
 
@@ -54,6 +59,8 @@ class Operations {
   const Executor& executor_;
   SearchedPicture searched_;
   std::vector<SearchScratch> scratch_;
+  PaddedLuma literalLuma_;
+  std::vector<LiteralScratch> literalScratch_;
 };
 
 }  // namespace rg::motion
