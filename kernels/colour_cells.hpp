@@ -29,7 +29,7 @@ void averageCells(const Planes& smooth, ImageView<const uint8_t> scope, int side
 struct LinkTargets {
   ImageView<uint8_t> links, nearest;
   ImageView<int16_t> hues;
-  PlaneTargets hsv;
+  PlaneTargets hsv{};
 };
 void linkColours(const Planes& colours, ImageView<const uint8_t> scope,
                  const rg::segmentation::LinkParams& params, const rg::segmentation::HueBand* band,
