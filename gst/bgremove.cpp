@@ -223,9 +223,6 @@ class BgRemove final : public PixelFilter<Settings, background::Stage> {
     return settings;
   }
 
-  [[nodiscard]] bool hasKernels(const Settings& settings) const override {
-    return settings.method == background::Method::Hybrid;
-  }
   [[nodiscard]] const char* lossOfDevice() const override {
     return ", with a new background model.";
   }

@@ -205,10 +205,6 @@ class HsvSegment final : public PixelFilter<Settings, segmentation::Stage> {
         frame, stage().process(std::move(picture), std::move(foreground), settings));
   }
 
-  [[nodiscard]] bool hasKernels(const Settings& settings) const override {
-    return settings.space == segmentation::ColourSpace::Rgb;
-  }
-
   [[nodiscard]] Progress describe(const FilterFrame& frame) override {
     const auto labels = findResult<segmentation::Labels>(frame.buffer);
     if (!labels) return {};

@@ -73,10 +73,6 @@ class PrmMotion final : public ChainedFilter<Settings, motion::Stage, graph::Gra
       attachSkipped<motion::Motion>(frame);
   }
 
-  [[nodiscard]] bool hasKernels(const Settings& settings) const override {
-    return settings.method == motion::Method::Refined;
-  }
-
   [[nodiscard]] Progress describe(const FilterFrame& frame) override {
     const auto motion = findResult<motion::Motion>(frame.buffer);
     if (!motion) return {};

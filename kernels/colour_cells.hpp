@@ -23,12 +23,13 @@ void smoothColours(const Planes& picture, const PlaneTargets& out, Stream stream
 void averageCells(const Planes& smooth, ImageView<const uint8_t> scope, int sidePx,
                   const CellTargets& out, Stream stream);
 
-/// rg::segmentation::ColourLinks: links as its LinkBits. nearest is scratch, hues too, which is
-/// needed with three channels only. band: in device memory, instead of that of `params`, for the
-/// host need not know it.
+/// rg::segmentation::ColourLinks: links as its LinkBits. The others are scratch: hues is needed
+/// with three channels only, hsv, of two planes, for ColourSpace::Hsv only. band: in device memory,
+/// instead of that of `params`, for the host need not know it.
 struct LinkTargets {
   ImageView<uint8_t> links, nearest;
   ImageView<int16_t> hues;
+  PlaneTargets hsv{};
 };
 void linkColours(const Planes& colours, ImageView<const uint8_t> scope,
                  const rg::segmentation::LinkParams& params, const rg::segmentation::HueBand* band,

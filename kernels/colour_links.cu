@@ -13,7 +13,9 @@ namespace {
 using namespace rg::segmentation;
 
 struct LinkJob {
-  Planes colours;
+  Planes compared;  ///< The picture's colours, or its saturations and values.
+  bool hasHues;     ///< There is a picture's hue to guard by, and in HSV to compare.
+  bool isByHsv;
   ImageView<const uint8_t> scope;
   const HueBand* band;
   int similarity;
@@ -21,13 +23,23 @@ struct LinkJob {
 };
 
 /// Hues with kInBand, as core's findHueRow gives them.
-__global__ void findHues(const __grid_constant__ LinkJob job) {
+__global__ void findHues(const __grid_constant__ Planes colours,
+                         const __grid_constant__ LinkJob job) {
   const Point p = pixelOfThread();
-  if (!isWithin(p, job.colours.size())) return;
-  if (job.band->count == 0) return;
-  const int hue = hueAt(job.colours, p);
+  if (!isWithin(p, colours.size())) return;
+  if (job.band->count == 0 && !job.isByHsv) return;
+  const int hue = hueAt(colours, p);
   const bool isInBand = hue != kAchromatic && job.band->contains(hue);
   job.out.hues.at(p.x, p.y) = static_cast<int16_t>(isInBand ? hue | simd::kInBand : hue);
+}
+
+__global__ void findSaturations(const __grid_constant__ Planes colours,
+                                const __grid_constant__ PlaneTargets hsv) {
+  const Point p = pixelOfThread();
+  if (!isWithin(p, colours.size())) return;
+  const auto level = [&](int c) { return int{colours.planes[c].at(p.x, p.y)}; };
+  hsv.planes[0].at(p.x, p.y) = static_cast<uint8_t>(saturationOf(level(0), level(1), level(2)));
+  hsv.planes[1].at(p.x, p.y) = static_cast<uint8_t>(valueOf(level(0), level(1), level(2)));
 }
 
 /// Both have a hue, one of them in the band, and these lie apart.
@@ -36,25 +48,33 @@ __device__ bool isGuarded(int a, int b) {
   return hueDistance(a & (simd::kInBand - 1), b & (simd::kInBand - 1)) > kHueGuard;
 }
 
+/// Of hues with kInBand.
+__device__ int stepBetween(int a, int b) {
+  const auto hueOnly = [](int hue) { return hue < 0 ? hue : hue & (simd::kInBand - 1); };
+  return hueStep(hueOnly(a), hueOnly(b));
+}
+
 __device__ int distanceOf(const LinkJob& job, Point p, Point q) {
-  if (!boundsOf(job.colours.size()).contains(q)) return kNoPair;
+  if (!boundsOf(job.compared.size()).contains(q)) return kNoPair;
   if (job.scope.data != nullptr &&
       (!isInScope(job.scope, p) || job.scope.at(p.x, p.y) != job.scope.at(q.x, q.y)))
     return kNoPair;
   int most = 0;
-  for (int c = 0; c < job.colours.channels; ++c) {
-    const ImageView<const uint8_t>& plane = job.colours.planes[c];
+  for (int c = 0; c < job.compared.channels; ++c) {
+    const ImageView<const uint8_t>& plane = job.compared.planes[c];
     most = std::max(most, absDiff(plane.at(p.x, p.y), plane.at(q.x, q.y)));
   }
-  const bool isApart = job.colours.channels == 3 && job.band->count > 0 &&
-                       isGuarded(job.out.hues.at(p.x, p.y), job.out.hues.at(q.x, q.y));
-  return isApart || most > kFarthest ? int{kFarthest} : most;
+  if (!job.hasHues || (job.band->count == 0 && !job.isByHsv))
+    return most > kFarthest ? int{kFarthest} : most;
+  const int a = job.out.hues.at(p.x, p.y), b = job.out.hues.at(q.x, q.y);
+  if (job.isByHsv) most = std::max(most, stepBetween(a, b));
+  return isGuarded(a, b) || most > kFarthest ? int{kFarthest} : most;
 }
 
 /// Of equal ones up, left, right, down.
 __global__ void chooseNearest(const __grid_constant__ LinkJob job) {
   const Point p = pixelOfThread();
-  if (!isWithin(p, job.colours.size())) return;
+  if (!isWithin(p, job.compared.size())) return;
   int least = kNoPair;
   uint8_t nearest = simd::kNearestNone;
   const auto consider = [&](Point q, uint8_t name) {
@@ -72,7 +92,7 @@ __global__ void chooseNearest(const __grid_constant__ LinkJob job) {
 
 __global__ void linkPixels(const __grid_constant__ LinkJob job, bool joinsSingles) {
   const Point p = pixelOfThread();
-  if (!isWithin(p, job.colours.size())) return;
+  if (!isWithin(p, job.compared.size())) return;
   uint8_t& links = job.out.links.at(p.x, p.y);
   links = 0;
   if (!isInScope(job.scope, p)) return;
@@ -93,13 +113,20 @@ __global__ void linkPixels(const __grid_constant__ LinkJob job, bool joinsSingle
 
 void linkColours(const Planes& colours, ImageView<const uint8_t> scope, const LinkParams& params,
                  const HueBand* band, const LinkTargets& out, Stream stream) {
-  const LinkJob job{colours, scope, band, std::clamp(params.similarity, 0, int{kFarthest}), out};
+  const bool hasHues = colours.channels == 3;
+  const bool isByHsv = hasHues && params.space == ColourSpace::Hsv;
+  const Planes hsv{{out.hsv.planes[0], out.hsv.planes[1]}, 2};
+  const int similarity = std::clamp(params.similarity, 0, int{kFarthest});
+  const LinkJob job{isByHsv ? hsv : colours, hasHues, isByHsv, scope, band, similarity, out};
   const Size size = colours.size();
   const auto pixels = static_cast<double>(size.area());
   const double bytes = pixels * colours.channels;
-  if (colours.channels == 3)
+  if (hasHues)
     start(launchOver("findHues", size, 1, {bytes + 2 * pixels, 30 * pixels}), stream, findHues,
-          job);
+          colours, job);
+  if (isByHsv)
+    start(launchOver("findSaturations", size, 1, {bytes + 2 * pixels, 20 * pixels}), stream,
+          findSaturations, colours, out.hsv);
   if (params.joinsSingles)
     start(launchOver("chooseNearest", size, 1, {bytes + pixels, 12 * bytes}), stream, chooseNearest,
           job);

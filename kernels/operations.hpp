@@ -58,11 +58,17 @@
   X(testGaussian, rg::background::testGaussian, rg::gpu::background::testGaussian)          \
   X(updateGaussian, rg::background::updateGaussian, rg::gpu::background::updateGaussian)    \
   X(paintMean, rg::background::paintMean, rg::gpu::background::paintMean)                   \
+  X(keepAbove, rg::background::keepAbove, rg::gpu::background::keepAbove)                   \
+  X(keepBoth, rg::background::keepBoth, rg::gpu::background::keepBoth)                      \
+  X(joinFound, rg::background::joinFound, rg::gpu::background::joinFound)                   \
+  X(fillLines, rg::background::fillLines, rg::gpu::background::fillLines)                   \
   X(differ, rg::background::differ, rg::gpu::background::differ)                            \
   X(measureChange, rg::background::measureChange, rg::gpu::background::measureChange)       \
-  X(markChange, rg::background::markChange, rg::gpu::background::markChange)                \
-  X(addStrange, rg::background::addStrange, rg::gpu::background::addStrange)                \
-  X(keepDense, rg::background::keepDense, rg::gpu::background::keepDense)                   \
+  X(countScene, rg::background::countScene, rg::gpu::background::countScene)                \
+  X(searchCells, rg::background::CellSearch, rg::gpu::background::searchCells)              \
+  X(sumOutlines, rg::background::sumOutline, rg::gpu::background::sumOutlines)              \
+  X(keepDenseInCells, rg::background::keepDense, rg::gpu::background::keepDenseInCells)     \
+  X(learnScene, rg::background::DifferenceOperations, rg::gpu::background::learnScene)      \
   X(findShadows, rg::background::findShadows, rg::gpu::background::findShadows)             \
   X(keepCastShadows, rg::background::keepCastShadows, rg::gpu::background::keepCastShadows) \
   X(classifyHues, rg::segmentation::classifyHues, rg::gpu::segmentation::classifyHues)      \
@@ -87,6 +93,8 @@
   X(findStill, rg::motion::isUnchanged, rg::gpu::motion::findStill)                         \
   X(sumGradients, rg::motion::sumGradients, rg::gpu::motion::sumGradients)                  \
   X(estimateMotion, rg::motion::estimateMotion, rg::gpu::motion::estimateMotion)            \
+  X(sumAllShifts, rg::motion::sumAllShifts, rg::gpu::motion::sumAllShifts)                  \
+  X(matchAllPixels, rg::motion::matchAllPixels, rg::gpu::motion::matchAllPixels)            \
   X(compareRegions, rg::objects::compareRegions, rg::gpu::objects::compareRegions)          \
   X(carryEvidence, rg::objects::carryEvidence, rg::gpu::objects::carryEvidence)             \
   X(addEvidence, rg::objects::addEvidence, rg::gpu::objects::addEvidence)                   \

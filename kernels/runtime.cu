@@ -6,6 +6,17 @@
 #include <thread>
 
 namespace rg::gpu::runtime {
+namespace {
+
+/// What the call makes.
+template <class Handle>
+Handle made(const char* call, cudaError_t (*make)(Handle*, unsigned), unsigned flags) {
+  Handle handle = nullptr;
+  check(make(&handle, flags), call);
+  return handle;
+}
+
+}  // namespace
 
 int countDevices() noexcept {
   int count = 0;
@@ -32,9 +43,7 @@ void choose(int device) {
 }
 
 Stream makeStream() {
-  Stream stream = nullptr;
-  check(cudaStreamCreateWithFlags(&stream, cudaStreamNonBlocking), "cudaStreamCreateWithFlags");
-  return stream;
+  return made("cudaStreamCreateWithFlags", cudaStreamCreateWithFlags, cudaStreamNonBlocking);
 }
 
 void endStream(Stream stream) noexcept {
@@ -84,9 +93,7 @@ void download(void* to, const void* from, size_t bytes, Stream stream) {
 }
 
 Event makeEvent() {
-  Event event = nullptr;
-  check(cudaEventCreateWithFlags(&event, cudaEventDisableTiming), "cudaEventCreateWithFlags");
-  return event;
+  return made("cudaEventCreateWithFlags", cudaEventCreateWithFlags, cudaEventDisableTiming);
 }
 
 void endEvent(Event event) noexcept {

@@ -3,6 +3,7 @@
 
 #include "core/background/method.hpp"
 #include "core/base/components.hpp"
+#include "core/base/memory/operations_source.hpp"
 #include "core/base/memory/pool.hpp"
 #include "core/base/renewed_stage.hpp"
 #include "core/base/row_spans.hpp"
@@ -17,7 +18,7 @@ namespace {
 class BackgroundStage final : public Stage {
  public:
   explicit BackgroundStage(Context context)
-      : context_(std::move(context)), operations_(makeOperations(context_)) {}
+      : context_(std::move(context)), operations_(makeOperations<Operations>(context_)) {}
 
   Result<std::shared_ptr<const Foreground>> process(std::shared_ptr<const Picture> picture,
                                                     const Params& params, FrameTime time) override;
@@ -46,12 +47,12 @@ class BackgroundStage final : public Stage {
   Pool<Foreground> pool_;
 };
 
-std::unique_ptr<MethodModel> makeModel(Method method) {
+std::unique_ptr<MethodModel> makeModel(Method method, const Context& context) {
   switch (method) {
     case Method::Paper:
-      return makePaperMethod();
+      return makePaperMethod(context);
     case Method::FrameDifference:
-      return makeDifferenceMethod();
+      return makeDifferenceMethod(context);
     case Method::Hybrid:
       break;
   }
@@ -61,7 +62,7 @@ std::unique_ptr<MethodModel> makeModel(Method method) {
 /// Another method starts anew: the models have nothing in common.
 MethodModel& BackgroundStage::modelOf(Method method) {
   if (!model_ || method_ != method) {
-    model_ = makeModel(method);
+    model_ = makeModel(method, context_);
     method_ = method;
   }
   return *model_;
@@ -95,6 +96,7 @@ Result<std::shared_ptr<const Foreground>> BackgroundStage::process(
     out->mask.resize(size);
     out->extent = boundsOf(size);
   }
+  out->mask.changeOnHost();  // Readers may have had copies of what it was.
   if (model_)
     model_->segment({std::move(picture), params, clock_, *context_.cpu, *operations_}, *out);
   else

@@ -131,6 +131,22 @@ void CellSearch::run(SearchScope search, const Comparison& what, const Executor&
   findParts();
 }
 
+void CellSearch::take(std::span<const CellCounts> cells) {
+  const auto width = static_cast<size_t>(found_.width());
+  isSeed_.changeOnHost();
+  for (int y = 0; y < found_.height(); ++y) {
+    const auto row = cells.subspan(static_cast<size_t>(y) * width, width);
+    for (size_t x = 0; x < width; ++x) {
+      found_.row(y)[x] = row[x].found;
+      moved_.row(y)[x] = row[x].moved;
+      isOccupied_.row(y)[x] = row[x].found >= kLeastOccupied ? 255 : 0;
+      if (row[x].hits > 0) isSeed_.row(y)[x] = 1;
+    }
+  }
+  looked_ = static_cast<int>(cells.size());
+  findParts();
+}
+
 void CellSearch::lookEverywhere(const Comparison& what, const Executor& executor) {
   executor.forRows(found_.height(), [&](int first, int last) {
     for (int y = first; y < last; ++y) look(runOf(y, 0, found_.width()), what);

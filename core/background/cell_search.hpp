@@ -47,6 +47,12 @@ struct Comparison {
   int sceneThreshold = 0;  ///< For what is not as in the memory.
 };
 
+/// What is counted in a cell: found pixels, those of them that differ from the frame before, and of
+/// these the ones in scanned rows.
+struct CellCounts {
+  uint8_t found = 0, moved = 0, hits = 0;
+};
+
 class CellSearch {
  public:
   void prepare(Size frame);
@@ -60,6 +66,9 @@ class CellSearch {
   /// holds the differences. To be called after all areas are added.
   void addHits(const uint8_t* changes, int y, int threshold);
   void run(SearchScope search, const Comparison& what, const Executor& executor);
+  /// In place of addHits() and run(), from who has looked everywhere: the counts of all cells, row
+  /// by row. The pixels go into pixels().
+  void take(std::span<const CellCounts> cells);
 
   [[nodiscard]] Size grid() const { return isOccupied_.size(); }
   /// The parts; boxes and runs are in cells.
@@ -71,6 +80,12 @@ class CellSearch {
   /// 255 where a pixel was found. Defined in occupied cells and the eight around each; one pixel of
   /// 0 lies around the frame.
   [[nodiscard]] const uint8_t* foundRow(int y) const { return pixels_.row(y + 1) + 1; }
+  /// foundRow() of all rows, in a border of one pixel.
+  [[nodiscard]] Image<uint8_t>& pixels() { return pixels_; }
+  [[nodiscard]] const Image<uint8_t>& pixels() const { return pixels_; }
+  /// 1 in the cells of areas, before hits are added.
+  [[nodiscard]] Image<uint8_t>& seeds() { return isSeed_; }
+  [[nodiscard]] const Image<uint8_t>& seeds() const { return isSeed_; }
   /// How many cells were looked at in this frame.
   [[nodiscard]] int lookedAt() const { return looked_; }
 

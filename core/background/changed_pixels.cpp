@@ -23,12 +23,14 @@ ColourPlanes planesOf(const Picture& picture) {
   return {picture.red(), picture.green(), picture.blue()};
 }
 
+ImageView<const uint8_t> everyRow(ImageView<const uint8_t> plane, int first, int step) {
+  const int rows = (plane.height() - first + step - 1) / step;
+  return {plane.row(first), {plane.width(), rows}, plane.strideBytes * step};
+}
+
 ColourPlanes everyRow(const ColourPlanes& planes, int first, int step) {
-  const auto thin = [&](ImageView<const uint8_t> plane) -> ImageView<const uint8_t> {
-    const int rows = (plane.height() - first + step - 1) / step;
-    return {plane.row(first), {plane.width(), rows}, plane.strideBytes * step};
-  };
-  return {thin(planes.red), thin(planes.green), thin(planes.blue)};
+  return {everyRow(planes.red, first, step), everyRow(planes.green, first, step),
+          everyRow(planes.blue, first, step)};
 }
 
 void measureChange(const ColourPlanes& a, const ColourPlanes& b, const Run& at, uint8_t* out) {

@@ -15,7 +15,7 @@ struct MethodJob {
   const Params& params;
   const FrameClock& clock;
   const Executor& executor;
-  Operations& on;  ///< Of method hybrid.
+  Operations& on;  ///< Of method hybrid; the others have their own.
 };
 
 /// While the camera moves nothing of the picture stands still.
@@ -37,8 +37,8 @@ class MethodModel {
   virtual void breakOff() = 0;
 };
 
-[[nodiscard]] std::unique_ptr<MethodModel> makePaperMethod();
+[[nodiscard]] std::unique_ptr<MethodModel> makePaperMethod(const Context& context);
 [[nodiscard]] std::unique_ptr<MethodModel> makeConsensusMethod();
-[[nodiscard]] std::unique_ptr<MethodModel> makeDifferenceMethod();
+[[nodiscard]] std::unique_ptr<MethodModel> makeDifferenceMethod(const Context& context);
 
 }  // namespace rg::background

@@ -183,11 +183,4 @@ void Operations::paintForeground(const BitMask& mask, const BitMask& shadow, Poi
   background::paintForeground(mask, shadow, shift, executor_, out);
 }
 
-std::unique_ptr<Operations> makeOperations(const Context& context) {
-  auto* source = dynamic_cast<OperationsSource*>(context.device.get());
-  if (source != nullptr && context.device->isUp())
-    return source->backgroundOperations(*context.cpu);
-  return std::make_unique<Operations>(*context.cpu);
-}
-
 }  // namespace rg::background

@@ -21,7 +21,6 @@
 
 #include <array>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 namespace rg::background {
@@ -120,17 +119,5 @@ class Operations {
   DisplacedScratch moved_;
   CastShadowScratch castShadows_;
 };
-
-/// A device that has operations of this room.
-class OperationsSource {
- public:
-  virtual ~OperationsSource() = default;
-  /// They live shorter than both. Throws std::bad_alloc.
-  [[nodiscard]] virtual std::unique_ptr<Operations> backgroundOperations(
-      const Executor& executor) = 0;
-};
-
-/// The device's, where there is one that works and has some, else the CPU's.
-[[nodiscard]] std::unique_ptr<Operations> makeOperations(const Context& context);
 
 }  // namespace rg::background

@@ -20,22 +20,29 @@ class SceneMemory {
  public:
   /// Allocates for such pictures; a picture of another kind forgets everything.
   void prepare(const Picture& picture);
-  void forget() { known_.fill(0); }
+  void forget() { images_.known.fill(0); }
   void learn(const ColourPlanes& now, const Run& at);
   /// Sets out[x] to 255 where the scene is known and the picture differs from it by more than
   /// `threshold`.
   void addStrange(const ColourPlanes& now, const Run& at, int threshold, uint8_t* out) const {
-    background::addStrange(now, planes(), at, threshold, known_.row(at.y) + at.begin, out);
+    background::addStrange(now, planes(), at, threshold, images_.known.row(at.y) + at.begin, out);
   }
 
   [[nodiscard]] ColourPlanes planes() const;
   /// 255 where the scene has been seen, else 0.
-  [[nodiscard]] ImageView<const uint8_t> known() const { return known_; }
+  [[nodiscard]] ImageView<const uint8_t> known() const { return images_.known; }
+
+  /// For who knows where the pixels are.
+  struct Images {
+    std::array<Image<uint8_t>, 3> seen;  ///< Green, red, blue; of grey pictures the first only.
+    Image<uint8_t> known;
+    int channels = 0;
+  };
+  [[nodiscard]] Images& images() { return images_; }
+  [[nodiscard]] const Images& images() const { return images_; }
 
  private:
-  int channels_ = 0;
-  std::array<Image<uint8_t>, 3> seen_;  ///< Green, red, blue; of grey pictures the first only.
-  Image<uint8_t> known_;
+  Images images_;
 };
 
 }  // namespace rg::background

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/graph/graph.hpp"
 
+#include "core/base/memory/operations_source.hpp"
 #include "core/base/memory/pool.hpp"
 #include "core/base/renewed_stage.hpp"
 #include "core/graph/operations.hpp"
@@ -12,7 +13,7 @@ namespace {
 
 class GraphStage final : public Stage {
  public:
-  explicit GraphStage(const Context& context) : operations_(makeOperations(context)) {}
+  explicit GraphStage(const Context& context) : operations_(makeOperations<Operations>(context)) {}
 
   Result<std::shared_ptr<const Graph>> process(std::shared_ptr<const segmentation::Labels> labels,
                                                const Params& params) override;

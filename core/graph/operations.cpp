@@ -249,10 +249,4 @@ void Operations::listRuns(const segmentation::Labels& labels, RegionRuns& runs) 
   bands_->listRuns(labels, runs);
 }
 
-std::unique_ptr<Operations> makeOperations(const Context& context) {
-  auto* source = dynamic_cast<OperationsSource*>(context.device.get());
-  if (source != nullptr && context.device->isUp()) return source->graphOperations(*context.cpu);
-  return std::make_unique<Operations>(*context.cpu);
-}
-
 }  // namespace rg::graph

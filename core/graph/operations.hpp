@@ -4,7 +4,6 @@
 #pragma once
 
 #include "core/base/memory/executor.hpp"
-#include "core/base/stage.hpp"
 #include "core/graph/graph.hpp"
 
 #include <memory>
@@ -30,16 +29,5 @@ class Operations {
   class Bands;
   std::unique_ptr<Bands> bands_;
 };
-
-/// A device that has operations of this room.
-class OperationsSource {
- public:
-  virtual ~OperationsSource() = default;
-  /// They live shorter than both. Throws std::bad_alloc.
-  [[nodiscard]] virtual std::unique_ptr<Operations> graphOperations(const Executor& executor) = 0;
-};
-
-/// The device's, where there is one that works and has some, else the CPU's.
-[[nodiscard]] std::unique_ptr<Operations> makeOperations(const Context& context);
 
 }  // namespace rg::graph

@@ -12,7 +12,6 @@
 #include <array>
 #include <cstdint>
 #include <span>
-#include <utility>
 
 namespace rg::motion {
 
@@ -43,28 +42,6 @@ struct FitMoments {
   int64_t pixels = 0, seen = 0, r = 0, rr = 0, misfit = 0;
   friend bool operator==(const FitMoments&, const FitMoments&) = default;
 };
-
-/// Calls visit(sum) for each of them; all are known by name where this is compiled.
-template <class Visit>
-constexpr void forSums(FitMoments& m, const Visit& visit) {
-  const auto forEach = [&]<size_t... i>(auto& sums, std::index_sequence<i...>) {
-    (visit(sums[i]), ...);
-  };
-  constexpr std::make_index_sequence<6> kSix;
-  forEach(m.xx, kSix);
-  forEach(m.xy, kSix);
-  forEach(m.yy, kSix);
-  constexpr std::make_index_sequence<3> kThree;
-  forEach(m.xr, kThree);
-  forEach(m.yr, kThree);
-  forEach(m.x, kThree);
-  forEach(m.y, kThree);
-  visit(m.pixels);
-  visit(m.seen);
-  visit(m.r);
-  visit(m.rr);
-  visit(m.misfit);
-}
 
 // No references to constants: a device has none of the host's.
 constexpr Point offsetOf(const MatchedCell& cell, Point centroid) {
@@ -113,6 +90,21 @@ constexpr void addCell(const FitSums& sums, Point offset, FitMoments& moments) {
   moments.r += sums.r;
   moments.rr += sums.rr;
   moments.misfit += sums.misfit;
+}
+
+inline constexpr int kMoments = 35;
+/// What addCell() adds to number `i` of the moments, in the order in which they stand.
+constexpr int64_t momentOf(const FitSums& sums, Point offset, int i) {
+  const auto placeOf = [&](int place) {
+    const int x = offset.x, y = offset.y;
+    const int first = place == 0 ? 1 : place == 1 ? x : y;
+    return place < 3 ? first : place == 3 ? x * x : place == 4 ? x * y : y * y;
+  };
+  if (i < 18) return int64_t{i < 6 ? sums.xx : i < 12 ? sums.xy : sums.yy} * placeOf(i % 6);
+  if (i < 24) return int64_t{i < 21 ? sums.xr : sums.yr} * placeOf(i % 3);
+  if (i < 30) return int64_t{i < 27 ? sums.x : sums.y} * placeOf(i % 3);
+  if (i < 33) return i == 30 ? sums.pixels : i == 31 ? sums.seen : sums.r;
+  return i == 33 ? sums.rr : sums.misfit;
 }
 
 /// limit: as for sumFit. On the best instructions that the machine has; the same bits as

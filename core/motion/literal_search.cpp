@@ -4,7 +4,6 @@
 #include "core/base/pixel.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cstdlib>
 #include <numeric>
 #include <tuple>
@@ -36,8 +35,8 @@ GradientSums sumGradients(std::span<const Run> runs, ImageView<const uint8_t> lu
   return sums;
 }
 
-/// What estimateMotion() reads, in units of 2^shift, so that the sums of the largest regions fit.
-FoundShift describeBest(const std::vector<uint64_t>& sums, const ShiftRange& range, int shift) {
+/// What estimateMotion() reads, in units of 2^scale.
+FoundShift describeBest(const std::vector<uint64_t>& sums, const ShiftRange& range, int scale) {
   const int reach = range.reach, side = 2 * reach + 1;
   std::tuple<uint64_t, int, int, int> best{UINT64_MAX, 0, 0, 0};
   const auto forShifts = [&](auto&& visit) {
@@ -52,15 +51,15 @@ FoundShift describeBest(const std::vector<uint64_t>& sums, const ShiftRange& ran
   FoundShift found;
   found.d = {std::get<3>(best), std::get<2>(best)};
   const uint64_t total = std::accumulate(sums.begin(), sums.end(), uint64_t{0});
-  found.mean = static_cast<uint32_t>(total / sums.size() >> shift);
+  found.mean = static_cast<uint32_t>(total / sums.size() >> scale);
   forShifts([&](int dx, int dy, uint64_t sum) {
     const int x = dx - found.d.x + 1, y = dy - found.d.y + 1;
-    const auto scaled = static_cast<uint32_t>(sum >> shift);
+    const auto told = static_cast<uint32_t>(sum >> scale);
     found.isBeaten = found.isBeaten || sum < std::get<0>(best);
     if (x < 0 || x > 2 || y < 0 || y > 2)
-      found.rival = std::min(found.rival, scaled);
+      found.rival = std::min(found.rival, told);
     else
-      found.sums[static_cast<size_t>(3 * y + x)] = scaled;
+      found.sums[static_cast<size_t>(3 * y + x)] = told;
   });
   return found;
 }
@@ -85,15 +84,10 @@ RegionMotion matchAllPixels(std::span<const Run> runs, ImageView<const uint8_t> 
                             const PaddedLuma& previous, const ShiftRange& range,
                             LiteralScratch& scratch) {
   sumAllShifts(runs, luma, previous, range.reach, scratch.sums);
-  GradientSums gradients = sumGradients(runs, luma);
-  // A sum of 2^24 pixels fits in 32 bits.
-  const int shift = std::max(static_cast<int>(std::bit_width(gradients.pixels)) - 24, 0);
-  const FoundShift found = describeBest(scratch.sums, range, shift);
-  gradients.xx >>= shift;
-  gradients.xy >>= shift;
-  gradients.yy >>= shift;
-  gradients.pixels >>= shift;
-  RegionMotion motion = estimateMotion(found, gradients);
+  const GradientSums gradients = sumGradients(runs, luma);
+  const int scale = literalScale(gradients.pixels);
+  const FoundShift found = describeBest(scratch.sums, range, scale);
+  RegionMotion motion = estimateMotion(found, scaled(gradients, scale));
   const int side = 2 * range.reach + 1;
   motion.sad =
       scratch.sums[static_cast<size_t>((range.reach - found.d.y) * side + range.reach - found.d.x)];

@@ -23,6 +23,17 @@ struct LiteralScratch {
   std::vector<uint64_t> sums;  ///< By shift.
 };
 
+/// Sums of the largest regions are told in units of 2^scale: those of 2^24 pixels fit in 32 bits.
+[[nodiscard]] constexpr int literalScale(uint64_t pixels) {
+  int scale = 0;
+  while (pixels >> scale >= uint64_t{1} << 24) ++scale;
+  return scale;
+}
+static_assert(literalScale((1 << 24) - 1) == 0 && literalScale(1 << 24) == 1);
+[[nodiscard]] constexpr GradientSums scaled(const GradientSums& sums, int scale) {
+  return {sums.xx >> scale, sums.xy >> scale, sums.yy >> scale, sums.pixels >> scale};
+}
+
 /// The sum over the runs' pixels x of |luma(x) − previous(x + e)| for every shift e, by rows of
 /// shifts. Of a frame's pixels: 2^26 · 255 < 2^64.
 void sumAllShifts(std::span<const Run> runs, ImageView<const uint8_t> luma,

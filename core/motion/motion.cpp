@@ -2,10 +2,10 @@
 #include "core/motion/motion.hpp"
 
 #include "core/base/camera/camera_search.hpp"
+#include "core/base/memory/operations_source.hpp"
 #include "core/base/memory/pool.hpp"
 #include "core/base/renewed_stage.hpp"
 #include "core/motion/camera/camera_view.hpp"
-#include "core/motion/literal_search.hpp"
 #include "core/motion/matched_blocks.hpp"
 #include "core/motion/motion_refinement.hpp"
 #include "core/motion/operations.hpp"
@@ -19,7 +19,7 @@ namespace {
 class MotionStage final : public Stage {
  public:
   explicit MotionStage(Context context)
-      : context_(std::move(context)), operations_(makeOperations(context_)) {}
+      : context_(std::move(context)), operations_(makeOperations<Operations>(context_)) {}
 
   Result<std::shared_ptr<const Motion>> process(std::shared_ptr<const graph::Graph> graph,
                                                 const Params& params) override;
@@ -44,8 +44,6 @@ class MotionStage final : public Stage {
   CameraSearch camera_;
   CameraView view_;
   std::vector<RegionMotion> inFrame_;  ///< Of each region, as if the camera stood still.
-  PaddedLuma literalLuma_;
-  std::vector<LiteralScratch> literalScratch_;
   MotionRefinement refinement_;
   Pool<Motion> pool_;
 };
@@ -118,15 +116,7 @@ void MotionStage::searchBeyondCamera(const graph::Graph& graph, const Params& pa
 }
 
 void MotionStage::matchLiterally(const graph::Graph& graph, int maxShift, Motion& motion) {
-  literalLuma_.build(previous_->luma(), maxShift + 1, *context_.cpu);
-  literalScratch_.resize(static_cast<size_t>(context_.cpu->threads()));
-  const auto count = static_cast<int>(motion.regions.size());
-  context_.cpu->forEach(count, [&](int index, int thread) {
-    const auto i = static_cast<size_t>(index);
-    motion.regions[i] =
-        matchAllPixels(graph.runs.of(i), graph.picture->luma(), literalLuma_,
-                       {maxShift, maxShift + 1}, literalScratch_[static_cast<size_t>(thread)]);
-  });
+  operations_->matchAllPixels(graph, *previous_, maxShift, motion.regions);
   for (const graph::Region& region : graph.regions)
     motion.matchedBlocks += region.areaPx / kBlockWidth;
 }

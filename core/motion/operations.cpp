@@ -28,10 +28,16 @@ void Operations::searchShifts(const MatchedFrames& frames, const WholeShifts& ou
   });
 }
 
-std::unique_ptr<Operations> makeOperations(const Context& context) {
-  auto* source = dynamic_cast<OperationsSource*>(context.device.get());
-  if (source != nullptr && context.device->isUp()) return source->motionOperations(*context.cpu);
-  return std::make_unique<Operations>(*context.cpu);
+void Operations::matchAllPixels(const graph::Graph& graph, const Picture& previous, int maxShiftPx,
+                                std::span<RegionMotion> motion) {
+  const ShiftRange range{maxShiftPx, maxShiftPx + 1};
+  literalLuma_.build(previous.luma(), range.reach, executor_);
+  literalScratch_.resize(static_cast<size_t>(executor_.threads()));
+  executor_.forEach(static_cast<int>(motion.size()), [&](int index, int thread) {
+    const auto i = static_cast<size_t>(index);
+    motion[i] = motion::matchAllPixels(graph.runs.of(i), graph.picture->luma(), literalLuma_, range,
+                                       literalScratch_[static_cast<size_t>(thread)]);
+  });
 }
 
 }  // namespace rg::motion

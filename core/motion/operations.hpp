@@ -5,14 +5,14 @@
 
 #include "core/base/memory/executor.hpp"
 #include "core/base/picture.hpp"
-#include "core/base/stage.hpp"
+#include "core/graph/graph.hpp"
+#include "core/motion/literal_search.hpp"
 #include "core/motion/matched_blocks.hpp"
 #include "core/motion/motion.hpp"
 #include "core/motion/padded_luma.hpp"
 #include "core/motion/shift_search.hpp"
 
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <vector>
 
@@ -54,6 +54,9 @@ class Operations {
 
   /// isUnchanged(), searchShifts() and estimateMotion() of each region that has matched blocks.
   virtual void searchShifts(const MatchedFrames& frames, const WholeShifts& out);
+  /// matchAllPixels() of each region of the graph, for shifts of up to maxShiftPx.
+  virtual void matchAllPixels(const graph::Graph& graph, const Picture& previous, int maxShiftPx,
+                              std::span<RegionMotion> motion);
   /// The previous picture's luma as searchShifts() has padded it.
   [[nodiscard]] const PaddedLuma& previousLuma() const { return searched_.luma; }
 
@@ -68,17 +71,8 @@ class Operations {
   const Executor& executor_;
   SearchedPicture searched_;
   std::vector<SearchScratch> scratch_;
+  PaddedLuma literalLuma_;
+  std::vector<LiteralScratch> literalScratch_;
 };
-
-/// A device that has operations of this room.
-class OperationsSource {
- public:
-  virtual ~OperationsSource() = default;
-  /// They live shorter than both. Throws std::bad_alloc.
-  [[nodiscard]] virtual std::unique_ptr<Operations> motionOperations(const Executor& executor) = 0;
-};
-
-/// The device's, where there is one that works and has some, else the CPU's.
-[[nodiscard]] std::unique_ptr<Operations> makeOperations(const Context& context);
 
 }  // namespace rg::motion

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/objects/objects.hpp"
 
+#include "core/base/memory/operations_source.hpp"
 #include "core/base/memory/pool.hpp"
 #include "core/base/pixel.hpp"
 #include "core/base/renewed_stage.hpp"
@@ -29,7 +30,7 @@ constexpr int64_t kLongestStepNs = 10'000'000'000;  // Sums of these last for 90
 class ObjectStage final : public Stage {
  public:
   explicit ObjectStage(Context context)
-      : context_(std::move(context)), operations_(makeOperations(context_)) {}
+      : context_(std::move(context)), operations_(makeOperations<Operations>(context_)) {}
 
   Result<std::shared_ptr<const Objects>> process(Input in, const Params& params,
                                                  FrameTime time) override;

@@ -37,10 +37,4 @@ void Operations::findObjectPixels(const graph::Graph& graph, std::span<const uin
   objects::findObjectPixels(graph, isBackground, cells, pixelScratch_, pixels);
 }
 
-std::unique_ptr<Operations> makeOperations(const Context& context) {
-  auto* source = dynamic_cast<OperationsSource*>(context.device.get());
-  if (source != nullptr && context.device->isUp()) return source->objectOperations(*context.cpu);
-  return std::make_unique<Operations>(*context.cpu);
-}
-
 }  // namespace rg::objects

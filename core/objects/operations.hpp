@@ -4,13 +4,11 @@
 #pragma once
 
 #include "core/base/memory/executor.hpp"
-#include "core/base/stage.hpp"
 #include "core/objects/merge/motion_evidence.hpp"
 #include "core/objects/merge/own_motion.hpp"
 #include "core/objects/tracking/looks/object_pixels.hpp"
 
 #include <cstdint>
-#include <memory>
 #include <span>
 
 namespace rg::objects {
@@ -44,16 +42,5 @@ class Operations {
   const Executor& executor_;
   ObjectPixelScratch pixelScratch_;
 };
-
-/// A device that has operations of this room.
-class OperationsSource {
- public:
-  virtual ~OperationsSource() = default;
-  /// They live shorter than both. Throws std::bad_alloc.
-  [[nodiscard]] virtual std::unique_ptr<Operations> objectOperations(const Executor& executor) = 0;
-};
-
-/// The device's, where there is one that works and has some, else the CPU's.
-[[nodiscard]] std::unique_ptr<Operations> makeOperations(const Context& context);
 
 }  // namespace rg::objects

@@ -106,11 +106,4 @@ uint32_t Operations::divide(const Picture& picture, Scoped scope, const GrowthLi
   return division_.runAgain(cellDivision_, cells_.pixels(), runs_, plan.pixels, executor_, ids);
 }
 
-std::unique_ptr<Operations> makeOperations(const Context& context) {
-  auto* source = dynamic_cast<OperationsSource*>(context.device.get());
-  if (source != nullptr && context.device->isUp())
-    return source->segmentationOperations(*context.cpu);
-  return std::make_unique<Operations>(*context.cpu);
-}
-
 }  // namespace rg::segmentation

@@ -8,7 +8,6 @@
 #include "core/base/memory/executor.hpp"
 #include "core/base/memory/image.hpp"
 #include "core/base/picture.hpp"
-#include "core/base/stage.hpp"
 #include "core/segmentation/border_pixels.hpp"
 #include "core/segmentation/colour_cells.hpp"
 #include "core/segmentation/colour_links.hpp"
@@ -17,7 +16,6 @@
 #include "core/segmentation/region_division.hpp"
 
 #include <cstdint>
-#include <memory>
 #include <span>
 
 namespace rg::segmentation {
@@ -87,17 +85,5 @@ class Operations {
   Image<uint16_t> cellIds_;
   BorderPixels borderPixels_;
 };
-
-/// A device that has operations of this room.
-class OperationsSource {
- public:
-  virtual ~OperationsSource() = default;
-  /// They live shorter than both. Throws std::bad_alloc.
-  [[nodiscard]] virtual std::unique_ptr<Operations> segmentationOperations(
-      const Executor& executor) = 0;
-};
-
-/// The device's, where there is one that works and has some, else the CPU's.
-[[nodiscard]] std::unique_ptr<Operations> makeOperations(const Context& context);
 
 }  // namespace rg::segmentation

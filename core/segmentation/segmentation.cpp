@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/segmentation/segmentation.hpp"
 
+#include "core/base/memory/operations_source.hpp"
 #include "core/base/memory/pool.hpp"
 #include "core/base/renewed_stage.hpp"
 #include "core/segmentation/operations.hpp"
@@ -32,7 +33,8 @@ Result<std::shared_ptr<const Labels>> skipped(Pool<Labels>& pool, Scope scope, S
 
 class SegmentationStage final : public Stage {
  public:
-  explicit SegmentationStage(const Context& context) : operations_(makeOperations(context)) {}
+  explicit SegmentationStage(const Context& context)
+      : operations_(makeOperations<Operations>(context)) {}
 
   Result<std::shared_ptr<const Labels>> process(
       std::shared_ptr<const Picture> picture,
@@ -69,6 +71,7 @@ Result<std::shared_ptr<const Labels>> SegmentationStage::process(
   labels->status = foreground ? foreground->status : Status::Ok;
   labels->scope = params.scope;
   labels->ids.resize(labels->size);
+  labels->ids.writeOnHost();  // Readers may have had copies of what they were.
   const auto maxRegions = static_cast<uint32_t>(std::clamp(params.maxRegions, 1, kMostRegions));
 
   const Scoped scope = decideByHue(*picture, foreground.get(), params.hue,

@@ -187,8 +187,6 @@ class StageOwner : public StageFilter {
   [[nodiscard]] Settings currentSettings() { return snapshot(settings_); }
   [[nodiscard]] Stage& stage() { return *stage_; }
   [[nodiscard]] const Executor& executor() const { return *executor_; }
-  /// Whether what the settings ask for has kernels.
-  [[nodiscard]] virtual bool hasKernels(const Settings&) const { return true; }
   /// What the end of a device has cost, for the warning.
   [[nodiscard]] virtual const char* lossOfDevice() const { return " where it was."; }
 
@@ -197,8 +195,7 @@ class StageOwner : public StageFilter {
  private:
   bool openDevice() {
     if constexpr (kHasBackend<Settings>) {
-      const Settings settings = currentSettings();
-      auto device = openBackend(GST_ELEMENT(element()), settings);
+      auto device = openBackend(GST_ELEMENT(element()), currentSettings());
       if (!device) {
         postError("backend=cuda: " + device.error().message +
                   ". With backend=auto the CPU does it");
@@ -206,12 +203,12 @@ class StageOwner : public StageFilter {
       }
       device_ = *std::move(device);
       hasToldFailure_ = false;
-      tellBackend(nameOfBackend(settings));
+      tellBackend(nameOfBackend());
     }
     return true;
   }
-  [[nodiscard]] std::string nameOfBackend(const Settings& settings) const {
-    return device_ && device_->isUp() && hasKernels(settings) ? "cuda: " + device_->name() : "cpu";
+  [[nodiscard]] std::string nameOfBackend() const {
+    return device_ && device_->isUp() ? "cuda: " + device_->name() : "cpu";
   }
   void tellBackend(std::string name) {
     if constexpr (kHasBackend<Settings>) {
@@ -221,7 +218,7 @@ class StageOwner : public StageFilter {
   }
   void followDevice() {
     if (!device_) return;
-    tellBackend(nameOfBackend(currentSettings()));
+    tellBackend(nameOfBackend());
     const DeviceError* error = device_->error();
     if (error == nullptr || std::exchange(hasToldFailure_, true)) return;
     postWarning("The CUDA device failed: " + std::string(error->what()) + ". The CPU goes on" +

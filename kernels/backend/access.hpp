@@ -3,6 +3,8 @@
 // them the images come to the host.
 #pragma once
 
+#include "core/background/methods/difference_operations.hpp"
+#include "core/background/methods/paper_operations.hpp"
 #include "core/background/operations.hpp"
 #include "core/base/bit_mask.hpp"
 #include "core/base/memory/image.hpp"
@@ -54,6 +56,29 @@ void forImages(T& still, const Visit& visit) {
   visit(still.ages);
   visit(still.aged.words());
   visit(still.fresh);
+}
+template <Of<rg::background::GaussianBackground> T, class Visit>
+void forImages(T& model, const Visit& visit) {
+  for (size_t c = 0; c < 3; ++c) {
+    visit(model.means[c]);
+    visit(model.variances[c]);
+    visit(model.sums[c]);
+    visit(model.squares[c]);
+  }
+}
+template <Of<rg::background::GaussianTests> T, class Visit>
+void forImages(T& tests, const Visit& visit) {
+  for (auto* image : {&tests.simple, &tests.gaussian, &tests.common}) visit(*image);
+}
+template <Of<rg::background::SceneMemory> T, class Visit>
+void forImages(T& memory, const Visit& visit) {
+  for (auto& plane : memory.images().seen) visit(plane);
+  visit(memory.images().known);
+}
+template <Of<rg::background::CellSearch> T, class Visit>
+void forImages(T& search, const Visit& visit) {
+  visit(search.pixels());
+  visit(search.seeds());
 }
 
 /// What the CPU is about to read, to change, to write anew.

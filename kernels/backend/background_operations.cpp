@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "kernels/backend/background_operations.hpp"
-
 #include "kernels/backend/dispatcher.hpp"
 #include "kernels/bit_mask.hpp"
 #include "kernels/cast_shadows.hpp"
@@ -391,10 +389,10 @@ class GpuOperations final : public Cpu, private Dispatcher {
 };
 
 }  // namespace
-
-std::unique_ptr<rg::background::Operations> makeOperations(GpuDevice& device,
-                                                           const Executor& executor) {
-  return std::make_unique<GpuOperations>(device, executor);
-}
-
 }  // namespace rg::gpu::background
+
+template <>
+std::unique_ptr<rg::background::Operations> rg::gpu::operationsOn(GpuDevice& device,
+                                                                  const Executor& executor) {
+  return std::make_unique<background::GpuOperations>(device, executor);
+}

@@ -49,6 +49,12 @@ void Dispatcher::copy(const BitView& from, const BitTarget& to) const {
   runtime::copy(to.words.data, from.words.data, bytesOf(from), stream());
 }
 
+void Dispatcher::clear(ImageView<uint8_t> plane) const {
+  runtime::clear(plane.data,
+                 static_cast<size_t>(plane.strideBytes) * static_cast<size_t>(plane.height()),
+                 stream());
+}
+
 void Dispatcher::send(void* to, const void* from, size_t bytes) const {
   device_.lane()->staging().upload(to, from, bytes);
 }

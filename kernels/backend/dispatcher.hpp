@@ -84,6 +84,8 @@ class Dispatcher {
   /// In scratch.
   [[nodiscard]] BitTarget copyOf(const BitView& mask) const;
   void copy(const BitView& from, const BitTarget& to) const;
+  /// Zeros.
+  void clear(ImageView<uint8_t> plane) const;
   void send(void* to, const void* from, size_t bytes) const;
   /// In scratch.
   template <class T>

@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "kernels/backend/gpu_device.hpp"
 
-#include "kernels/backend/background_operations.hpp"
-#include "kernels/backend/graph_operations.hpp"
-#include "kernels/backend/motion_operations.hpp"
-#include "kernels/backend/object_operations.hpp"
-#include "kernels/backend/segmentation_operations.hpp"
 #include "kernels/runtime.hpp"
 
 #include <utility>
@@ -76,28 +71,6 @@ void* Scratch::takeBytes(size_t bytes) {
 std::unique_ptr<DeviceMemory> GpuDevice::allocate(size_t bytes) {
   lane_->enter();
   return std::make_unique<GpuMemory>(lane_, bytes);
-}
-
-std::unique_ptr<rg::background::Operations> GpuDevice::backgroundOperations(
-    const Executor& executor) {
-  return background::makeOperations(*this, executor);
-}
-
-std::unique_ptr<rg::segmentation::Operations> GpuDevice::segmentationOperations(
-    const Executor& executor) {
-  return segmentation::makeOperations(*this, executor);
-}
-
-std::unique_ptr<rg::graph::Operations> GpuDevice::graphOperations(const Executor& executor) {
-  return graph::makeOperations(*this, executor);
-}
-
-std::unique_ptr<rg::motion::Operations> GpuDevice::motionOperations(const Executor& executor) {
-  return motion::makeOperations(*this, executor);
-}
-
-std::unique_ptr<rg::objects::Operations> GpuDevice::objectOperations(const Executor& executor) {
-  return objects::makeOperations(*this, executor);
 }
 
 Result<std::shared_ptr<Device>> openDevice(int device, const std::shared_ptr<Device>& neighbour) {

@@ -3,13 +3,9 @@
 // rooms' operations.
 #pragma once
 
-#include "core/background/operations.hpp"
 #include "core/base/memory/device.hpp"
-#include "core/graph/operations.hpp"
-#include "core/motion/operations.hpp"
-#include "core/objects/operations.hpp"
-#include "core/segmentation/operations.hpp"
 #include "kernels/backend/open_device.hpp"
+#include "kernels/backend/rooms.hpp"
 #include "kernels/backend/staging.hpp"
 #include "kernels/launch.hpp"
 
@@ -73,12 +69,7 @@ class Scratch {
 };
 
 /// Serves one stage, on one thread at a time.
-class GpuDevice final : public Device,
-                        public rg::background::OperationsSource,
-                        public rg::segmentation::OperationsSource,
-                        public rg::graph::OperationsSource,
-                        public rg::motion::OperationsSource,
-                        public rg::objects::OperationsSource {
+class GpuDevice final : public Device, public AllRooms {
  public:
   GpuDevice(std::string name, std::shared_ptr<Lane> lane)
       : name_(std::move(name)), lane_(std::move(lane)), scratch_(lane_) {}
@@ -86,16 +77,6 @@ class GpuDevice final : public Device,
   [[nodiscard]] std::string name() const override { return name_; }
   [[nodiscard]] const void* space() const override { return lane_.get(); }
   [[nodiscard]] std::unique_ptr<DeviceMemory> allocate(size_t bytes) override;
-  [[nodiscard]] std::unique_ptr<rg::background::Operations> backgroundOperations(
-      const Executor& executor) override;
-  [[nodiscard]] std::unique_ptr<rg::segmentation::Operations> segmentationOperations(
-      const Executor& executor) override;
-  [[nodiscard]] std::unique_ptr<rg::graph::Operations> graphOperations(
-      const Executor& executor) override;
-  [[nodiscard]] std::unique_ptr<rg::motion::Operations> motionOperations(
-      const Executor& executor) override;
-  [[nodiscard]] std::unique_ptr<rg::objects::Operations> objectOperations(
-      const Executor& executor) override;
 
   [[nodiscard]] const std::shared_ptr<Lane>& lane() const { return lane_; }
   [[nodiscard]] Scratch& scratch() { return scratch_; }
@@ -105,5 +86,11 @@ class GpuDevice final : public Device,
   std::shared_ptr<Lane> lane_;
   Scratch scratch_;
 };
+
+template <class Operations>
+void RoomSource<Operations>::make(const Executor& executor,
+                                  std::unique_ptr<Operations>& operations) {
+  operations = operationsOn<Operations>(dynamic_cast<GpuDevice&>(*this), executor);
+}
 
 }  // namespace rg::gpu

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "kernels/backend/graph_operations.hpp"
-
 #include "kernels/backend/dispatcher.hpp"
 #include "kernels/primitives.hpp"
 #include "kernels/region_graph.hpp"
@@ -64,9 +62,10 @@ class GpuOperations final : public Cpu, private Dispatcher {
 };
 
 }  // namespace
-
-std::unique_ptr<rg::graph::Operations> makeOperations(GpuDevice& device, const Executor& executor) {
-  return std::make_unique<GpuOperations>(device, executor);
-}
-
 }  // namespace rg::gpu::graph
+
+template <>
+std::unique_ptr<rg::graph::Operations> rg::gpu::operationsOn(GpuDevice& device,
+                                                             const Executor& executor) {
+  return std::make_unique<graph::GpuOperations>(device, executor);
+}

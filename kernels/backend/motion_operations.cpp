@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "kernels/backend/motion_operations.hpp"
-
 #include "kernels/backend/dispatcher.hpp"
+#include "kernels/literal_search.hpp"
 #include "kernels/motion_estimate.hpp"
 #include "kernels/shift_search.hpp"
 
@@ -30,6 +29,15 @@ class GpuOperations final : public Cpu, private Dispatcher {
     listRegions(frames, out);
     if (regions_.empty()) return Cpu::searchShifts(frames, out);
     runOrCatchUp([&] { searchOnDevice(frames, out); }, [&] { Cpu::searchShifts(frames, out); });
+  }
+  void matchAllPixels(const rg::graph::Graph& graph, const Picture& previous, int maxShiftPx,
+                      std::span<RegionMotion> motion) override {
+    if (motion.empty()) return;
+    const auto onDevice = [&] {
+      matchOnDevice(graph, previous, {maxShiftPx, maxShiftPx + 1});
+      std::copy(motions_.begin(), motions_.end(), motion.begin());
+    };
+    runOrCatchUp(onDevice, [&] { Cpu::matchAllPixels(graph, previous, maxShiftPx, motion); });
   }
 
  private:
@@ -60,7 +68,7 @@ class GpuOperations final : public Cpu, private Dispatcher {
     findStill(regions, luma, before, still, stream());
     const ShiftRange range{frames.maxShiftPx, frames.maxShiftPx + 1};
     auto* found = scratch().take<FoundShift>(count);
-    rg::gpu::motion::searchShifts(regions, padded(luma, before, range.reach), range,
+    rg::gpu::motion::searchShifts(regions, searched(luma, before, range.reach), range,
                                   sumsFor(range, count), found, stream());
     auto* motion = scratch().take<RegionMotion>(count);
     estimateMotion(regions, found, gradients, motion, stream());
@@ -74,21 +82,46 @@ class GpuOperations final : public Cpu, private Dispatcher {
     }
   }
 
-  [[nodiscard]] SearchedPlanes padded(ImageView<const uint8_t> luma,
-                                      ImageView<const uint8_t> before, int reach) const {
+  /// Leaves in motions_ what it finds.
+  void matchOnDevice(const rg::graph::Graph& graph, const Picture& previous,
+                     const ShiftRange& range) {
+    list_.build(graph.runs.list, graph.runs.starts);
+    const LiteralRegions regions{sent(std::span<const Run>(graph.runs.list)),
+                                 sent(std::span<const LiteralChunk>(list_.chunks)), list_};
+    const PaddedView before = padded(previous.readOn(device()).luma, range.reach);
+    const auto count = static_cast<uint32_t>(regions.count());
+    const int most = mostRegions(range, regions.count());
+    const LiteralSums sums{scratch().take<unsigned long long>(int64_t{shiftsOf(range)} * most),
+                           most, scratch().take<rg::motion::GradientSums>(count)};
+    auto* motion = scratch().take<RegionMotion>(count);
+    rg::gpu::motion::matchAllPixels(regions, graph.picture->readOn(device()).luma, before, range,
+                                    sums, motion, stream());
+    fetchList(motion, count, motions_);
+  }
+
+  [[nodiscard]] PaddedView padded(ImageView<const uint8_t> before, int reach) const {
     const Size size{before.width() + 2 * reach + PaddedLuma::kSlack, before.height() + 2 * reach};
     const PaddedView previous{before.size, reach, scratchPlane<uint8_t>(size)};
-    const BoxesView boxes{scratchPlane<uint16_t>(size)};
     rg::gpu::motion::padLuma(before, previous, stream());
+    return previous;
+  }
+  [[nodiscard]] SearchedPlanes searched(ImageView<const uint8_t> luma,
+                                        ImageView<const uint8_t> before, int reach) const {
+    const PaddedView previous = padded(before, reach);
+    const BoxesView boxes{scratchPlane<uint16_t>(previous.rows.size)};
     sumBoxes(previous, boxes, stream());
     return {luma, previous, boxes};
   }
 
-  /// As many regions at once as that many sums allow.
-  [[nodiscard]] ShiftSums sumsFor(const ShiftRange& range, int count) const {
+  /// As many regions at once as a number of sums allows.
+  [[nodiscard]] static int mostRegions(const ShiftRange& range, int count) {
     constexpr int kMostSums = 1 << 23;
-    const int shifts = shiftsOf(range), regions = std::clamp(kMostSums / shifts, 1, count);
-    const int64_t sums = int64_t{shifts} * regions;
+    return std::clamp(kMostSums / shiftsOf(range), 1, count);
+  }
+  /// Room for those.
+  [[nodiscard]] ShiftSums sumsFor(const ShiftRange& range, int count) const {
+    const int regions = mostRegions(range, count);
+    const int64_t sums = int64_t{shiftsOf(range)} * regions;
     return {scratch().take<uint32_t>(sums), scratch().take<uint32_t>(sums), regions};
   }
 
@@ -96,13 +129,14 @@ class GpuOperations final : public Cpu, private Dispatcher {
   std::vector<GradientProducts> gradients_;
   std::vector<uint8_t> stills_;
   std::vector<RegionMotion> motions_;
+  LiteralList list_;
 };
 
 }  // namespace
-
-std::unique_ptr<rg::motion::Operations> makeOperations(GpuDevice& device,
-                                                       const Executor& executor) {
-  return std::make_unique<GpuOperations>(device, executor);
-}
-
 }  // namespace rg::gpu::motion
+
+template <>
+std::unique_ptr<rg::motion::Operations> rg::gpu::operationsOn(GpuDevice& device,
+                                                              const Executor& executor) {
+  return std::make_unique<motion::GpuOperations>(device, executor);
+}

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "kernels/backend/object_operations.hpp"
-
 #include "kernels/backend/dispatcher.hpp"
 #include "kernels/camera_warp.hpp"
 #include "kernels/motion_evidence.hpp"
@@ -169,10 +167,10 @@ class GpuOperations final : public Cpu, private Dispatcher {
 };
 
 }  // namespace
-
-std::unique_ptr<rg::objects::Operations> makeOperations(GpuDevice& device,
-                                                        const Executor& executor) {
-  return std::make_unique<GpuOperations>(device, executor);
-}
-
 }  // namespace rg::gpu::objects
+
+template <>
+std::unique_ptr<rg::objects::Operations> rg::gpu::operationsOn(GpuDevice& device,
+                                                               const Executor& executor) {
+  return std::make_unique<objects::GpuOperations>(device, executor);
+}

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "kernels/backend/segmentation_operations.hpp"
-
 #include "core/segmentation/segmentation.hpp"
 #include "kernels/backend/dispatcher.hpp"
 #include "kernels/bit_mask.hpp"
@@ -11,7 +9,6 @@
 #include "kernels/mask_gaps.hpp"
 #include "kernels/primitives.hpp"
 #include "kernels/region_division.hpp"
-#include "kernels/runtime.hpp"
 #include "kernels/scopes.hpp"
 
 #include <algorithm>
@@ -84,10 +81,6 @@ class GpuOperations final : public Cpu, private Dispatcher {
   }
   uint32_t divide(const Picture& picture, Scoped scope, const GrowthLimits& limits,
                   Image<uint16_t>& ids) override {
-    // Growing by HSV is for comparisons with the paper, and has no kernel.
-    if (limits.space != rg::segmentation::ColourSpace::Rgb)
-      return onHost([&] { return Cpu::divide(picture, scope, limits, ids); }, ReadsIfAny{scope},
-                    Writes{ids});
     return ask<uint32_t>(
         [&](uint32_t* count) { divideOnDevice(picture, scope, limits, count, ids); },
         [&] { return Cpu::divide(picture, scope, limits, ids); }, ReadsIfAny{scope}, Writes{ids});
@@ -116,9 +109,7 @@ class GpuOperations final : public Cpu, private Dispatcher {
     fillUnedged(picture.readOn(device()).green, kMostGapStep, mostGapPx(size), view, whole,
                 stream());
     const ImageView<uint8_t> out = scope.writeOn(device());
-    runtime::clear(out.data,
-                   static_cast<size_t>(out.strideBytes) * static_cast<size_t>(out.height()),
-                   stream());
+    clear(out);
     paint(whole, rg::background::kForegroundPixel, out, stream());
   }
 
@@ -197,10 +188,12 @@ class GpuOperations final : public Cpu, private Dispatcher {
                                            uint32_t* count) {
     const Size size = cells.colours.size();
     const Planes colours = cells.colours;
+    const bool isByHsv = limits.space == rg::segmentation::ColourSpace::Hsv;
     const LinkTargets links{scratchPlane<uint8_t>(size), scratchPlane<uint8_t>(size),
-                            scratchPlane<int16_t>(size)};
-    linkColours(colours, cells.scope, {plan.similarity, limits.minAreaPx > 1, {}}, band, links,
-                stream());
+                            scratchPlane<int16_t>(size),
+                            isByHsv ? scratchPlanes(size, 2) : PlaneTargets{}};
+    linkColours(colours, cells.scope, {plan.similarity, limits.minAreaPx > 1, {}, limits.space},
+                band, links, stream());
     const GroupsView linked = groups(size);
     groupLinked(links.links, cells.scope, plan.runs, cells.sidePx, linked, stream());
     const DivisionView view = division(linked, size, wanted, count);
@@ -249,10 +242,10 @@ class GpuOperations final : public Cpu, private Dispatcher {
 };
 
 }  // namespace
-
-std::unique_ptr<rg::segmentation::Operations> makeOperations(GpuDevice& device,
-                                                             const Executor& executor) {
-  return std::make_unique<GpuOperations>(device, executor);
-}
-
 }  // namespace rg::gpu::segmentation
+
+template <>
+std::unique_ptr<rg::segmentation::Operations> rg::gpu::operationsOn(GpuDevice& device,
+                                                                    const Executor& executor) {
+  return std::make_unique<segmentation::GpuOperations>(device, executor);
+}

@@ -30,11 +30,26 @@ void expectSame(const Foreground& a, const Foreground& b, int frame) {
   ASSERT_EQ(a.areas, b.areas);
 }
 
-const background::Params kQuick = [] {
+background::Params quick(background::Method method) {
   background::Params params;
-  params.trainingFrames = 10;
+  params.method = method;
+  params.trainingFrames = method == background::Method::Paper ? 3 : 10;
   params.absorbTimeS = 1;
   return params;
+}
+const background::Params kQuick = quick(background::Method::Hybrid);
+/// The other methods, each in its ways.
+const std::vector<background::Params> kOthers = [] {
+  std::vector<background::Params> others{quick(background::Method::Paper)};
+  others.push_back(others.back());
+  others.back().findsShadows = false;
+  others.back().threshold = 15;
+  others.push_back(quick(background::Method::FrameDifference));
+  others.push_back(others.back());
+  others.back().search = background::SearchScope::Frame;
+  others.back().thresholdFrom = background::ThresholdSource::Frame;
+  others.back().searchInterval = 1;
+  return others;
 }();
 
 /// A walker that stops, a push, a gain that hunts, light, night: every decision of the method is
@@ -73,7 +88,7 @@ constexpr int kWalking = 5, kAfter = 3;
 /// Fails the calls of a frame in turn, in a stream of its own each time, and compares that frame
 /// and those behind it. Of a frame that comes late each run takes others: those before it take
 /// long.
-void failCalls(int frame, Failure how,
+void failCalls(int frame, Failure how, const background::Params& params,
                const std::vector<std::shared_ptr<const Foreground>>& expected) {
   const int64_t before = countAllocations();
   std::mt19937 random(std::random_device{}());
@@ -83,7 +98,7 @@ void failCalls(int frame, Failure how,
        call += 1 + random() % mostStep) {
     SCOPED_TRACE("call " + std::to_string(call));
     const auto device = openTested();
-    StagedScene gpu({}, kQuick, device);
+    StagedScene gpu({}, params, device);
     for (int i = 0; i < frame; ++i) (void)gpu.show(takeAt(i));
     failCall(call, how);
     const auto shown = gpu.show(takeAt(frame));
@@ -95,28 +110,60 @@ void failCalls(int frame, Failure how,
         expectSame(*gpu.show(takeAt(i)), *expected[static_cast<size_t>(i)], i);
     }
   }
-  EXPECT_GT(call, 20u);
+  const bool isHybrid = params.method == background::Method::Hybrid;
+  // The first frames of the other methods only train.
+  EXPECT_GT(call, isHybrid ? 20u : frame < kWalking ? 3u : 15u);
   EXPECT_EQ(countAllocations(), before);
+}
+
+/// What the CPU shows of the first frames; it forgets everything before frame `forgotten`.
+std::vector<std::shared_ptr<const Foreground>> shownByCpu(const background::Params& params,
+                                                          int forgotten) {
+  StagedScene cpu({}, params);
+  std::vector<std::shared_ptr<const Foreground>> shown;
+  for (int i = 0; i < kWalking + kAfter; ++i) {
+    if (i == forgotten) cpu.forget();
+    shown.push_back(cpu.show(takeAt(i)));
+  }
+  return shown;
 }
 
 TEST(BackgroundBackend, AFailedCallChangesNoFrame) {
   if (!isHost()) GTEST_SKIP() << "a GPU does not fail when asked";
-  StagedScene cpu({}, kQuick);
-  std::vector<std::shared_ptr<const Foreground>> expected;
-  for (int i = 0; i < kWalking + kAfter; ++i) expected.push_back(cpu.show(takeAt(i)));
-  for (const int frame : {0, 1, kWalking}) failCalls(frame, Failure::Call, expected);
+  const auto expected = shownByCpu(kQuick, 0);
+  for (const int frame : {0, 1, kWalking}) failCalls(frame, Failure::Call, kQuick, expected);
 }
 
 /// The frame is the first of a model that starts with it, and says so.
 TEST(BackgroundBackend, ALostDeviceOrOneThatHangsCostsTheModelOnly) {
   if (!isHost()) GTEST_SKIP() << "a GPU does not fail when asked";
-  StagedScene cpu({}, kQuick);
-  std::vector<std::shared_ptr<const Foreground>> expected;
-  for (int i = 0; i < kWalking + kAfter; ++i) {
-    if (i == kWalking) cpu.forget();
-    expected.push_back(cpu.show(takeAt(i)));
+  const auto expected = shownByCpu(kQuick, kWalking);
+  for (const auto how : {Failure::Loss, Failure::Hang}) failCalls(kWalking, how, kQuick, expected);
+}
+
+TEST(BackgroundBackend, EachOtherMethodIsTheSameOnADevice) {
+  for (const background::Params& params : kOthers) {
+    const auto device = openTested();
+    StagedScene cpu({}, params), gpu({}, params, device);
+    uint64_t foregroundPx = 0;
+    for (int frame = 0; frame < 75 && !HasFatalFailure(); ++frame) {
+      const auto expected = cpu.show(takeAt(frame));
+      expectSame(*gpu.show(takeAt(frame)), *expected, frame);
+      foregroundPx += expected->scene.foregroundPx;
+    }
+    EXPECT_TRUE(device->isUp());
+    EXPECT_GT(foregroundPx, 1000u);
+    expectNoFindings();
   }
-  for (const auto how : {Failure::Loss, Failure::Hang}) failCalls(kWalking, how, expected);
+}
+
+TEST(BackgroundBackend, AFailureInAnotherMethodCostsNoMoreThanTheModel) {
+  if (!isHost()) GTEST_SKIP() << "a GPU does not fail when asked";
+  for (const background::Params& params : kOthers) {
+    const auto expected = shownByCpu(params, 0), renewed = shownByCpu(params, kWalking);
+    for (const int frame : {1, kWalking}) failCalls(frame, Failure::Call, params, expected);
+    failCalls(kWalking, Failure::Loss, params, renewed);
+  }
 }
 
 }  // namespace

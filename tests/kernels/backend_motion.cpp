@@ -83,10 +83,11 @@ TEST(MotionBackend, GraphsAndVectorsAreTheSameOnADevice) {
   size_t moving = 0;
   for (const bool isGrey : {false, true})
     for (const auto scope : {segmentation::Scope::Frame, segmentation::Scope::Foreground})
-      for (const int maxShiftPx : {3, 20})
+      for (const int maxShiftPx : {2, 3, 20})
         for (const auto& labels : walk(scope, isGrey, 400)) {
           const auto connectivity = maxShiftPx == 3 ? Connectivity::Eight : Connectivity::Four;
-          const motion::Params params{maxShiftPx, !isGrey};
+          const auto method = maxShiftPx == 2 ? motion::Method::Literal : motion::Method::Refined;
+          const motion::Params params{maxShiftPx, !isGrey, method};
           const auto expected = cpu.show(labels, connectivity, params);
           const auto found = gpu.show(labels, connectivity, params);
           ASSERT_NO_FATAL_FAILURE(expectSame(*found->graph, *expected->graph));
@@ -98,16 +99,16 @@ TEST(MotionBackend, GraphsAndVectorsAreTheSameOnADevice) {
   expectNoFindings();
 }
 
-TEST(MotionBackend, NeitherAFailedCallNorALostDeviceChangesAnything) {
-  if (!isHost()) GTEST_SKIP() << "a GPU does not fail when asked";
-  const auto labels = walk(segmentation::Scope::Frame, false, 40);
-  const motion::Params params{4};
+/// In a stream of its own each.
+void failEachCall(const std::vector<std::shared_ptr<const Labels>>& labels,
+                  const motion::Params& params) {
   Chained cpu(nullptr, nullptr);
   std::vector<std::shared_ptr<const Motion>> expected;
   for (const auto& frame : labels) expected.push_back(cpu.show(frame, Connectivity::Four, params));
   for (const auto how : {Failure::Call, Failure::Loss, Failure::Hang}) {
     uint64_t call = 0;
-    for (bool hasFailed = true; hasFailed && !HasFailure(); call += how == Failure::Hang ? 3 : 1) {
+    for (bool hasFailed = true; hasFailed && !testing::Test::HasFailure();
+         call += how == Failure::Hang ? 3 : 1) {
       SCOPED_TRACE("call " + std::to_string(call));
       const auto device = openTested(), other = openTested(device);
       Chained gpu(device, other);
@@ -122,6 +123,13 @@ TEST(MotionBackend, NeitherAFailedCallNorALostDeviceChangesAnything) {
     }
     EXPECT_GT(call, 30u);
   }
+}
+
+TEST(MotionBackend, NeitherAFailedCallNorALostDeviceChangesAnything) {
+  if (!isHost()) GTEST_SKIP() << "a GPU does not fail when asked";
+  const auto labels = walk(segmentation::Scope::Frame, false, 40);
+  for (const auto method : {motion::Method::Refined, motion::Method::Literal})
+    failEachCall(labels, {method == motion::Method::Literal ? 1 : 4, true, method});
 }
 
 }  // namespace

@@ -49,6 +49,8 @@ std::vector<Params> allWays() {
         for (const bool usesHue : {false, true})
           ways.push_back(
               {scope, 4, minAreaPx, maxRegions, usesHue ? byHue : segmentation::HueRules{}});
+  for (const int minAreaPx : {1, 300})
+    ways.push_back({Scope::Frame, 4, minAreaPx, 1024, byHue, segmentation::ColourSpace::Hsv});
   return ways;
 }
 
@@ -94,8 +96,8 @@ void failEachCall(const Params& params, Failure how) {
 
 TEST(SegmentationBackend, AFailedCallChangesNoLabel) {
   if (!isHost()) GTEST_SKIP() << "a GPU does not fail when asked";
-  for (const Params& params :
-       {Params{Scope::Foreground, 4, 300, 1024, {}}, Params{Scope::Frame, 4, 1, 50, {}}})
+  for (const Params& params : {Params{Scope::Foreground, 4, 300, 1024, {}},
+                               Params{Scope::Frame, 4, 1, 50, {}, segmentation::ColourSpace::Hsv}})
     for (const auto how : {Failure::Call, Failure::Loss, Failure::Hang}) failEachCall(params, how);
 }
 

@@ -112,6 +112,62 @@ void launchBackground(const Memory& m) {
   gpu::findComponents(m.bits, true, Connectivity::Eight, {}, nullptr);
 }
 
+/// Three planes of one size that nobody reads.
+template <class T>
+gpu::PlanesOf<T> planesOfThree(Size size) {
+  return {{plane<T>(size), plane<T>(size), plane<T>(size)}, 3};
+}
+
+/// Method paper, with things in a tenth of the frame.
+void launchPaper(const Memory& m) {
+  const gpu::background::GaussianView model{
+      planesOfThree<uint16_t>(m.size), planesOfThree<uint16_t>(m.size), {}, {}};
+  const ImageView<uint8_t> mask = m.targets.planes[0];
+  gpu::background::testGaussian(m.planes, model, 40, {mask, mask}, nullptr);
+  gpu::background::keepBoth(mask, mask, mask, nullptr);
+  gpu::background::differ(m.planes, m.planes, mask, nullptr);
+  gpu::countLevels(mask, nullptr, nullptr);
+  gpu::background::keepAbove(12, mask, nullptr);
+  gpu::packEqual(mask, 255, m.bits, nullptr);
+  gpu::findComponents(m.bits, true, Connectivity::Eight, {}, nullptr);
+  gpu::background::LineList lines;
+  constexpr int kThings = 10;
+  for (int i = 0; i < kThings; ++i) lines.add({0, 0, m.size.width / 10, m.size.height / 10});
+  gpu::background::fillLines(mask,
+                             {nullptr, nullptr, static_cast<int>(lines.strips.size()), nullptr,
+                              lines.reaches, static_cast<double>(m.size.area()) / 10},
+                             mask, nullptr);
+  gpu::background::joinFound({mask, mask, mask}, mask, mask, nullptr);
+  gpu::background::paintMean(model, m.targets, nullptr);
+  gpu::packEqual(mask, 255, m.bits, nullptr);
+  const background::ColourPlanes planes{m.planes.planes[0], m.planes.planes[1], m.planes.planes[2]};
+  gpu::background::findShadows(planes, planes, m.bits, m.bits, nullptr);
+  gpu::paint(m.bits, background::kShadowPixel, mask, nullptr);
+  gpu::background::updateGaussian(m.planes, mask, {{8, 1}, {8, 4}, 1}, model, nullptr);
+}
+
+/// Method frame-difference: a 16th of the rows is scanned.
+void launchDifference(const Memory& m) {
+  constexpr background::ScannedRows kScanned{0, 16};
+  const Size rows{m.size.width, m.size.height / kScanned.step};
+  const auto few = planesOfThree<uint8_t>(rows);
+  const Size grid{(m.size.width + background::kCellPx - 1) / background::kCellPx,
+                  (m.size.height + background::kCellPx - 1) / background::kCellPx};
+  const auto cells = plane<uint8_t>(grid);
+  const ImageView<uint8_t> mask = m.targets.planes[0];
+  gpu::background::measureChange(few, few, few.planes[0], nullptr);
+  gpu::background::countScene(few.planes[0], few.planes[1], few.planes[2], 12, nullptr, nullptr);
+  gpu::countLevels(few.planes[0], nullptr, nullptr);
+  gpu::background::searchCells(
+      {m.planes, m.planes, m.planes, m.planes.planes[0], cells, 12, 24, kScanned}, mask, nullptr,
+      nullptr);
+  gpu::background::keepDenseInCells(mask, cells, m.bits, nullptr);
+  gpu::background::fillHoles(m.bits, background::mostHolePx(m.size), {}, nullptr);
+  gpu::background::dropSmallParts(m.bits, background::leastThingPx(m.size), {}, nullptr);
+  gpu::paint(m.bits, background::kForegroundPixel, mask, nullptr);
+  gpu::background::learnScene(m.planes, kScanned, cells, {m.targets, mask}, nullptr);
+}
+
 /// Segmentation of the whole frame: of cells, then of pixels at borders.
 void launchSegmentation(const Memory& m) {
   constexpr int kSide = 8;
@@ -119,20 +175,14 @@ void launchSegmentation(const Memory& m) {
   const segmentation::RegionDivision::Limits limits{static_cast<uint32_t>(m.size.area() / 1200),
                                                     1024};
   const Size grid{(m.size.width + kSide - 1) / kSide, (m.size.height + kSide - 1) / kSide};
-  const gpu::Planes cells{
-      {plane<const uint8_t>(grid), plane<const uint8_t>(grid), plane<const uint8_t>(grid)}, 3};
+  const gpu::Planes cells = planesOfThree<const uint8_t>(grid);
   const auto bytes = plane<uint8_t>(grid);
   const auto none = ImageView<const uint8_t>{};
   segmentation::HueBand band;
   gpu::segmentation::findFrameBand(m.planes, nullptr, &band, nullptr);
   gpu::segmentation::smoothColours(m.planes, m.targets, nullptr);
-  gpu::segmentation::averageCells(
-      m.planes, none, kSide,
-      {{{plane<uint8_t>(grid), plane<uint8_t>(grid), plane<uint8_t>(grid)}, 3},
-       bytes,
-       bytes,
-       bytes},
-      nullptr);
+  gpu::segmentation::averageCells(m.planes, none, kSide,
+                                  {planesOfThree<uint8_t>(grid), bytes, bytes, bytes}, nullptr);
   gpu::segmentation::linkColours(cells, none, {12, true, {}}, &band,
                                  {bytes, bytes, plane<int16_t>(grid)}, nullptr);
   const gpu::segmentation::GroupsView groups{};
@@ -181,6 +231,27 @@ void launchSearch(const Memory& m, const Search& search) {
     gpu::motion::sumMoments(regions, nullptr, m.planes.planes[0], luma, nullptr, nullptr);
 }
 
+/// Method literal: all pixels of the frame, each region some rows of it.
+void launchLiteral(const Memory& m, const Search& search) {
+  const motion::ShiftRange range{search.shiftPx, search.shiftPx + 1};
+  const Size padded{m.size.width + 2 * range.reach + motion::PaddedLuma::kSlack,
+                    m.size.height + 2 * range.reach};
+  const gpu::motion::PaddedView luma{m.size, range.reach, plane<uint8_t>(padded)};
+  std::vector<Run> runs;
+  std::vector<uint32_t> starts{0};
+  for (int i = 0; i < search.regions; ++i) {
+    const int end = (i + 1) * m.size.height / search.regions;
+    for (int y = i * m.size.height / search.regions; y < end; ++y)
+      runs.push_back(runOf(y, 0, m.size.width));
+    starts.push_back(static_cast<uint32_t>(runs.size()));
+  }
+  gpu::motion::LiteralList list;
+  list.build(runs, starts);
+  gpu::motion::padLuma(m.planes.planes[0], luma, nullptr);
+  gpu::motion::matchAllPixels({nullptr, nullptr, list}, m.planes.planes[0], luma, range,
+                              {nullptr, search.regions, nullptr}, nullptr, nullptr);
+}
+
 /// Before a moving camera: two rounds with the frame before and with an older one, of which the
 /// second knows of movers; evidence; the pixels of a few objects.
 void launchObjects(const Memory& m, const Search& search) {
@@ -224,6 +295,22 @@ std::vector<size_t> launchFrame(Size size, const Search& search) {
 }
 constexpr const char* kStages[] = {"load", "bgremove",  "hsvsegment",
                                    "srg",  "prmmotion", "mrfmerge"};
+
+/// The stages' other methods, the same way.
+std::vector<size_t> launchOthers(Size size, const Search& search) {
+  const Memory m{size};
+  std::vector<size_t> ends;
+  const auto mark = [&] { ends.push_back(gpu::shim::launches().size()); };
+  launchPaper(m);
+  mark();
+  launchDifference(m);
+  mark();
+  launchLiteral(m, search);
+  mark();
+  return ends;
+}
+constexpr const char* kOthers[] = {"bgremove method=paper", "bgremove method=frame-difference",
+                                   "prmmotion method=literal"};
 
 /// Fewer blocks than multiprocessors have no more than their share of bandwidth and rate.
 double microseconds(const gpu::Launch& launch, const Device& device) {
@@ -277,13 +364,13 @@ void print(Size size) {
                 launches);
 }
 
-void printStages(const std::vector<size_t>& ends) {
+void printStages(const std::vector<size_t>& ends, const char* const* names) {
   size_t first = 0;
   for (size_t i = 0; i < ends.size(); ++i) {
     double us[2] = {};
     for (size_t k = first; k < ends[i]; ++k)
       for (int d = 0; d < 2; ++d) us[d] += microseconds(gpu::shim::launches()[k], kDevices[d]);
-    std::printf("stage %s: %.2f us of work on an H200, %.2f on an H100, %zu launches\n", kStages[i],
+    std::printf("stage %s: %.2f us of work on an H200, %.2f on an H100, %zu launches\n", names[i],
                 us[0], us[1], ends[i] - first);
     first = ends[i];
   }
@@ -305,6 +392,8 @@ int main(int count, char** arguments) {
     rg::gpu::shim::begin({rg::gpu::shim::Order::Natural, 1, rg::gpu::shim::Mode::Record});
     const auto ends = rg::launchFrame(size, search);
     rg::print(size);
-    rg::printStages(ends);
+    rg::printStages(ends, rg::kStages);
+    rg::gpu::shim::begin({rg::gpu::shim::Order::Natural, 1, rg::gpu::shim::Mode::Record});
+    rg::printStages(rg::launchOthers(size, search), rg::kOthers);
   }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The Gaussian and the difference method, and shadows.
 #include "core/base/run.hpp"
+#include "tests/kernels/masks.hpp"
 #include "tests/kernels/parity.hpp"
 #include "tests/kernels/pictures.hpp"
 
@@ -196,52 +197,91 @@ void parity_differ() {
   });
 }
 
-void parity_markChange() {
-  forPairs([](const Picture& a, const Picture& b) {
-    for (const int threshold : {0, 7, 254, 255}) {
-      Image<uint8_t> expected(a.size());
-      for (int y = 0; y < a.size().height; ++y)
-        background::markChange(background::planesOf(a), background::planesOf(b), rowOf(a.size(), y),
-                               threshold, expected.row(y));
-      Plane<uint8_t> out(a.size());
-      gpu::background::markChange(planesOf(a), planesOf(b), threshold, out, nullptr);
-      out.expect(expected.view(), "change");
+namespace {
+
+/// A plane of 0 and 255, dense or with few pixels set.
+Image<uint8_t> binary(Size size, uint32_t what) {
+  Image<uint8_t> plane(size);
+  plane.fill(0);
+  paint(what % 2 == 0 ? scattered(size, what) : maskOf(size, kMasks - 1), 255, plane);
+  return plane;
+}
+
+}  // namespace
+
+void parity_keepAbove() {
+  forSizesAndFills([](Size size, int fill) {
+    for (const int threshold : {0, 12, 254, 255}) {
+      Image<uint8_t> plane = filled(size, fill);
+      Plane<uint8_t> there(std::as_const(plane).view());
+      gpu::background::keepAbove(threshold, there, nullptr);
+      background::keepAbove(threshold, oneThread(), plane);
+      there.expect(std::as_const(plane).view(), "above");
     }
   });
 }
 
-void parity_addStrange() {
-  forPairs([](const Picture& a, const Picture& b) {
-    Image<uint8_t> expected(a.size()), isKnown(a.size());
-    for (Image<uint8_t>* image : {&expected, &isKnown}) image->fill(0);
-    paint(scattered(a.size(), 2), 255, expected);
-    paint(scattered(a.size(), 6), 255, isKnown);
-    Plane<uint8_t> out(expected.view()), known(isKnown.view());
-    for (int y = 0; y < a.size().height; ++y)
-      background::addStrange(background::planesOf(a), background::planesOf(b), rowOf(a.size(), y),
-                             9, isKnown.row(y), expected.row(y));
-    gpu::background::addStrange(planesOf(a), planesOf(b), 9, known, out, nullptr);
-    out.expect(expected.view(), "strange");
-  });
+void parity_keepBoth() {
+  for (const Size size : kSizes) {
+    const Image<uint8_t> a = binary(size, 2), b = binary(size, 4);
+    Image<uint8_t> expected(size);
+    background::keepBoth(a, b, oneThread(), expected);
+    Plane<uint8_t> out(size);
+    gpu::background::keepBoth(Plane<uint8_t>(a.view()), Plane<uint8_t>(b.view()), out, nullptr);
+    out.expect(std::as_const(expected).view(), "both");
+  }
 }
 
-void parity_keepDense() {
+void parity_joinFound() {
   for (const Size size : kSizes) {
-    // Core reads one column and row beyond what it is asked about.
-    Image<uint8_t> framed({size.width + 2, size.height + 2}), expected(framed.size());
-    framed.fill(0);
-    const BitMask mask = scattered(size, 5);
-    for (int y = 0; y < size.height; ++y)
-      for (int x = 0; x < size.width; ++x)
-        framed.at(x + 1, y + 1) = static_cast<uint8_t>(mask.at(x, y) ? 255 : 0);
-    for (int y = 1; y <= size.height; ++y)
-      background::keepDense(framed.row(y - 1), framed.row(y), framed.row(y + 1),
-                            runOf(y, 1, size.width + 1), expected.row(y));
-    const Box inside{1, 1, size.width, size.height};
-    Plane<uint8_t> marked(std::as_const(framed).view().crop(inside)), out(size);
-    gpu::background::keepDense(marked, out, nullptr);
-    out.expect(std::as_const(expected).view().crop(inside), "dense");
+    background::GaussianTests tests{binary(size, 2), binary(size, 4), Image<uint8_t>(size)};
+    background::keepBoth(tests.simple, tests.gaussian, oneThread(), tests.common);
+    const Image<uint8_t> lines = binary(size, 6);
+    Image<uint8_t> expected(size);
+    background::joinFound(tests, lines, oneThread(), expected);
+    Plane<uint8_t> simple(std::as_const(tests.simple).view()),
+        gaussian(std::as_const(tests.gaussian).view()), common(std::as_const(tests.common).view()),
+        between(lines.view()), out(size);
+    gpu::background::joinFound({simple, gaussian, common}, between, out, nullptr);
+    out.expect(std::as_const(expected).view(), "found");
   }
+}
+
+/// Boxes of one pixel, of whole frames, of several strips, and some that overlap.
+void parity_fillLines() {
+  for (const Size size : kSizes)
+    for (const uint32_t what : {1u, 2u}) {
+      const Image<uint8_t> edges = binary(size, what);
+      Image<uint8_t> expected(size);
+      expected.fill(0);
+      background::CleaningScratch scratch;
+      gpu::background::LineList list;
+      const Box frame = boundsOf(size);
+      double pixels = 0;
+      for (const Box& wanted :
+           {frame, Box{0, 0, 1, 1}, Box{size.width / 3, size.height / 4, 40, 40},
+            Box{size.width / 2, 0, 7, size.height}, Box{3, 3, 70, 2}}) {
+        const Box box = what == 1 && wanted == frame ? Box{1, 1, 60, 60} : wanted;
+        const Box inside = intersect(box, frame);
+        if (inside.isEmpty()) continue;
+        background::fillLines(edges, inside, scratch, expected);
+        list.add(inside);
+        pixels += static_cast<double>(inside.area());
+      }
+      list.add({0, 0, 1, size.height});
+      background::fillLines(edges, {0, 0, 1, size.height}, scratch, expected);
+      Guarded<uint32_t> reaches(std::vector<uint32_t>(list.reaches, 0xA5A5A5A5u), 0x5A5A5A5Au);
+      Image<uint8_t> nothing(size);
+      nothing.fill(0);
+      Plane<uint8_t> from(edges.view()), out(std::as_const(nothing).view());
+      gpu::background::fillLines(
+          from,
+          {list.boxes.data(), list.strips.data(), static_cast<int>(list.strips.size()),
+           reaches.data(), list.reaches, pixels},
+          out, nullptr);
+      out.expect(std::as_const(expected).view(), "filled");
+      reaches.expectGuarded();
+    }
 }
 
 }  // namespace rg::test

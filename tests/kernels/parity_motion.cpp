@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "core/motion/literal_search.hpp"
 #include "core/motion/shift_search.hpp"
 #include "kernels/fit_moments.hpp"
+#include "kernels/literal_search.hpp"
 #include "kernels/motion_estimate.hpp"
 #include "kernels/shift_search.hpp"
 #include "tests/kernels/parity.hpp"
 
+#include <span>
 #include <tuple>
 #include <vector>
 
@@ -267,6 +270,104 @@ void parity_estimateMotion() {
           << i;
     }
   });
+}
+
+namespace {
+
+/// Regions of a picture as runs: stripes, single pixels, a region of most of the picture.
+struct RunsOfRegions {
+  std::vector<Run> list;
+  std::vector<uint32_t> starts{0};
+
+  explicit RunsOfRegions(Size size) {
+    for (int region = 0; region < 4; ++region) {
+      for (int y = 0; y < size.height; ++y)
+        for (int x = 0; x < size.width;) {
+          const int begin = x;
+          while (x < size.width && regionOf(x, y) == region) ++x;
+          if (x > begin) list.push_back(runOf(y, begin, x));
+          while (x < size.width && regionOf(x, y) != region) ++x;
+        }
+      if (list.size() > starts.back()) starts.push_back(static_cast<uint32_t>(list.size()));
+    }
+  }
+  static int regionOf(int x, int y) {
+    if (hashOf(x, y, 5) % 50 == 0) return 3;
+    return y % 9 == 4 && hashOf(x / 7, y, 6) % 2 == 0 ? static_cast<int>(hashOf(0, y, 7) % 2) + 1
+                                                      : 0;
+  }
+  [[nodiscard]] std::span<const Run> of(size_t region) const {
+    return {list.data() + starts[region], starts[region + 1] - starts[region]};
+  }
+  [[nodiscard]] size_t count() const { return starts.size() - 1; }
+};
+
+/// Calls check(moved, padded, runs, list).
+template <class Check>
+void forLiteral(int reach, const Check& check) {
+  forMoved([&](const MovedPicture& moved, const Regions&) {
+    motion::PaddedLuma padded;
+    padded.build(moved.before, reach, oneThread());
+    const RunsOfRegions runs(moved.now.size());
+    gpu::motion::LiteralList list;
+    list.build(runs.list, runs.starts);
+    check(moved, padded, runs, list);
+  });
+}
+
+}  // namespace
+
+void parity_sumAllShifts() {
+  constexpr int kReach = 3, kShifts = 49;
+  forLiteral(kReach, [](const MovedPicture& moved, const motion::PaddedLuma& padded,
+                        const RunsOfRegions& runs, const gpu::motion::LiteralList& list) {
+    const gpu::motion::LiteralRegions regions{runs.list.data(), list.chunks.data(), list};
+    Plane<uint8_t> rows(padded.rows());
+    // All but the first region.
+    const auto count = static_cast<int>(runs.count()) - 1;
+    if (count == 0) return;
+    Guarded<unsigned long long> sums(
+        std::vector<unsigned long long>(static_cast<size_t>(count * kShifts), 7), 0xA5A5);
+    gpu::motion::sumAllShifts(regions, {1, count}, Plane<uint8_t>(moved.now.view()),
+                              {moved.now.size(), padded.reach(), rows}, kReach, sums.data(),
+                              nullptr);
+    std::vector<unsigned long long> expected;
+    std::vector<uint64_t> of;
+    for (size_t region = 1; region < runs.count(); ++region) {
+      motion::sumAllShifts(runs.of(region), moved.now, padded, kReach, of);
+      expected.insert(expected.end(), of.begin(), of.end());
+    }
+    sums.expect(expected, [](auto a, auto b) { return a == b; });
+  });
+}
+
+void parity_matchAllPixels() {
+  constexpr motion::ShiftRange kRange{3, 4};
+  int moving = 0;
+  forLiteral(5, [&](const MovedPicture& moved, const motion::PaddedLuma& padded,
+                    const RunsOfRegions& runs, const gpu::motion::LiteralList& list) {
+    const gpu::motion::LiteralRegions regions{runs.list.data(), list.chunks.data(), list};
+    Plane<uint8_t> rows(padded.rows());
+    constexpr int kAtOnce = 2;
+    std::vector<unsigned long long> sums(
+        static_cast<size_t>(kAtOnce * gpu::motion::shiftsOf(kRange)), 7);
+    std::vector<motion::GradientSums> gradients(runs.count(), {7, 7, 7, 7});
+    std::vector<motion::RegionMotion> found(runs.count(), {7, 7, 7, 7});
+    gpu::motion::matchAllPixels(regions, Plane<uint8_t>(moved.now.view()),
+                                {moved.now.size(), padded.reach(), rows}, kRange,
+                                {sums.data(), kAtOnce, gradients.data()}, found.data(), nullptr);
+    motion::LiteralScratch scratch;
+    for (size_t region = 0; region < runs.count(); ++region) {
+      const motion::RegionMotion expected =
+          motion::matchAllPixels(runs.of(region), moved.now, padded, kRange, scratch);
+      const motion::RegionMotion& is = found[region];
+      ASSERT_EQ(std::tuple(is.dx, is.dy, is.sad, is.reliability),
+                std::tuple(expected.dx, expected.dy, expected.sad, expected.reliability))
+          << region;
+      moving += expected.dx != 0 && expected.reliability > 0;
+    }
+  });
+  EXPECT_GT(moving, 0);
 }
 
 }  // namespace rg::test

@@ -15,6 +15,7 @@ namespace {
 
 using segmentation::ColourCells;
 using segmentation::ColourGrid;
+using segmentation::ColourSpace;
 
 /// Where `scope` has something in it.
 void expectInScope(Plane<uint8_t>& found, ImageView<const uint8_t> expected,
@@ -70,13 +71,16 @@ void parity_linkColours() {
     for (const segmentation::LinkParams& params : {segmentation::LinkParams{12, true, {}},
                                                    {0, false, {}},
                                                    {300, true, {40, 500}},
-                                                   {60, true, {1400, 300}}}) {
+                                                   {60, true, {1400, 300}},
+                                                   {12, true, {}, ColourSpace::Hsv},
+                                                   {40, false, {200, 400}, ColourSpace::Hsv}}) {
       segmentation::ColourLinks links;
       links.build(cells.pixels(), params, oneThread());
-      Plane<uint8_t> out(size), nearest(size);
+      Plane<uint8_t> out(size), nearest(size), saturations(size), values(size);
       Plane<int16_t> hues(size);
       gpu::segmentation::linkColours(planesOf(cells.pixels()), divided.scopeView(), params,
-                                     &params.band, {out, nearest, hues}, nullptr);
+                                     &params.band, {out, nearest, hues, {{saturations, values}, 2}},
+                                     nullptr);
       const ptrdiff_t stride = size.height > 1 ? links.links(1) - links.links(0) : size.width;
       out.expect({links.links(0), size, stride}, "links");
     }

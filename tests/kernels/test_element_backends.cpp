@@ -81,6 +81,44 @@ TEST_F(ElementBackend, TheStagesSayTheSame) {
   EXPECT_EQ(gpu.message(GST_MESSAGE_WARNING), nullptr);
 }
 
+/// Also in the ways that are not the default ones.
+TEST_F(ElementBackend, TheOtherMethodsSayTheSame) {
+  const auto stages = [](const std::string& background, const std::string& backend) {
+    const std::string on = " backend=" + backend;
+    return "bgremove method=" + background + on + " ! hsvsegment colour-space=hsv" + on + " ! srg" +
+           on + " ! prmmotion method=literal max-shift=3" + on + " ! mrfmerge method=literal" + on;
+  };
+  for (const char* background : {"paper training-frames=2", "frame-difference"}) {
+    SCOPED_TRACE(background);
+    Chain cpu(stages(background, "cpu"), kCaps), gpu(stages(background, "cuda"), kCaps);
+    const auto expected = tellAll(cpu, std::nullopt);
+    EXPECT_EQ(tellAll(gpu, std::nullopt), expected);
+    EXPECT_EQ(activeBackend(gpu), "cuda: host");
+    EXPECT_NE(expected.back(), expected.front());
+    EXPECT_EQ(gpu.message(GST_MESSAGE_WARNING), nullptr);
+  }
+}
+
+/// What one element has written on the host the next one reads on the device, and the other way
+/// round.
+TEST_F(ElementBackend, EachElementMayRunOnItsOwn) {
+  const auto stages = [](const char* odd, const char* even) {
+    const auto on = [](const std::string& element, const std::string& backend) {
+      return element + " backend=" + backend + " ! ";
+    };
+    return on("bgremove training-frames=2", odd) + on("hsvsegment", even) + on("srg", odd) +
+           on("prmmotion max-shift=6", even) + "mrfmerge backend=" + odd;
+  };
+  Chain cpu(stages("cpu", "cpu"), kCaps);
+  const auto expected = tellAll(cpu, std::nullopt);
+  for (const auto& [odd, even] : {std::pair("cpu", "cuda"), std::pair("cuda", "cpu")}) {
+    SCOPED_TRACE(odd);
+    Chain mixed(stages(odd, even), kCaps);
+    EXPECT_EQ(tellAll(mixed, std::nullopt), expected);
+    EXPECT_EQ(mixed.message(GST_MESSAGE_WARNING), nullptr);
+  }
+}
+
 /// How many calls the last frame takes.
 uint64_t callsOfFrame() {
   Chain gpu(stagesWith("cuda"), kCaps);

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # A video through all stages, on the CPU and with the kernels on the host (kernels/shim): the same
-# objects, regions and vectors, byte for byte. A tenth of its frames also as before a moving camera.
+# objects, regions and vectors, byte for byte. A tenth of its frames also as before a moving camera,
+# and by the stages' other methods.
 #
 # usage: whole_clip.sh VIDEO [FRAMES [WIDTH HEIGHT]]   (default 100 frames of 384x288; BUILD_DIR as
 # for run.sh)
@@ -38,6 +39,17 @@ run_moving_on() {  # BACKEND
   launch $((frames / 10 + 2)) hsvsegment scope=frame max-regions=200 "$on" ! srg "$on" ! \
     prmmotion "$on" ! mrfmerge "$on" ! regionwrite location="$folder/$1.jsonl"
 }
+# What the paper says, literally, and its section 2.1.
+run_paper_on() {  # BACKEND
+  local on=backend=$1
+  launch $((frames / 10 + 8)) bgremove method=paper training-frames=5 "$on" ! \
+    hsvsegment colour-space=hsv "$on" ! srg "$on" ! prmmotion method=literal max-shift=4 "$on" ! \
+    mrfmerge method=literal "$on" ! regionwrite location="$folder/$1.jsonl"
+}
+run_difference_on() {  # BACKEND
+  launch $((frames / 10 + 8)) regiontrack bgremove::method=frame-difference backend="$1" ! \
+    regionwrite location="$folder/$1.jsonl"
+}
 
 compare() {  # SUFFIX...
   local lines
@@ -56,3 +68,8 @@ compare graph jsonl
 run_moving_on cpu
 run_moving_on cuda
 compare jsonl
+for way in paper difference; do
+  "run_${way}_on" cpu
+  "run_${way}_on" cuda
+  compare jsonl
+done
