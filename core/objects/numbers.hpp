@@ -130,8 +130,7 @@ struct Numbers {
     Number weakGain{4}, weakSpeed{0};      ///< by less,
     Number soleGain{8}, soleSpeed{1};      ///< in a blob of its own,
     Number otherGain{8}, otherSpeed{2};    ///< and otherwise.
-    Number held = ms(200);  ///< Something may have stopped behind others for so long, unseen.
-    Number slowing{1, 2};   ///< A speed off its steady one by less is noise of the last moment.
+    Number slowing{1, 2};  ///< A speed off its steady one by less is noise of the last moment.
   } place;
 
   /// Portraits: what a track looks like, pixel by pixel.
@@ -142,8 +141,6 @@ struct Numbers {
     Number leastShare{1, 16};     ///< Of a portrait, that has to agree,
     Number rigidShare{1, 32};     ///< and of what keeps its shape.
     Number agreeing{1, 2};        ///< Of what is seen of it.
-    Number covered{1, 2};         ///< Of it, by others: it is behind them.
-    Number onGround{1, 4};        ///< Of it, where nothing is: it must have stopped elsewhere.
     Number about{1, 8};           ///< By so much of its size a clear blob may be off.
     Number turnX{1, 3};           ///< Of its width, that a turn may carry it by,
     Number turnY{1, 6};           ///< and of its height.
@@ -204,18 +201,13 @@ struct Numbers {
 
   /// Sizes that are learnt.
   struct Sizes {
-    Number larger{9, 8};  ///< What is hidden in part is smaller: more is another size,
-    Number largerPx{2};   ///< by so many pixels besides.
-    Number least{4, 5};   ///< A size that is seen is the track's between these.
+    Number least{4, 5};  ///< A size that is seen is the track's between these.
     Number most{5, 4};
-    Number rigidSamples{24};     ///< Frames over which a size is learnt of what is rigid,
-    Number uniformSamples{12};   ///< where all are of one size,
-    Number otherSamples{4};      ///< and of others.
-    Number swaySamples{7};       ///< Over which it is learnt how much that changes.
-    Number otherSize = ms(500);  ///< Of another size for so long, it has changed.
-    Number outgrown{5, 4};       ///< Of a size: more is more than the track.
-    Number entryHeight{1, 8};    ///< By so much a height changes that is its own.
-    Number entryFrames{3};       ///< For so long.
+    Number rigidSamples{24};    ///< Frames over which a size is learnt of what is rigid,
+    Number uniformSamples{12};  ///< where all are of one size,
+    Number otherSamples{4};     ///< and of others.
+    Number swaySamples{7};      ///< Over which it is learnt how much that changes.
+    Number outgrown{5, 4};      ///< Of a size: more is more than the track.
     Number closing{1, 32};  ///< Of a box, by which an end comes nearer that goes behind something,
     Number closingPx{3};    ///< at least so many pixels.
     Number learnEvery{1, 2};          ///< Heights of way after which the scene learns again,
@@ -254,7 +246,6 @@ struct Numbers {
     Number oneBodyHeight{5, 4};   ///< and together no higher than usual;
     Number oneBodyCells{5, 4};    ///< or show no more than one of them would,
     Number oneBodyShared{1, 2};   ///< in boxes that overlap by so much.
-    Number otherSpeed{1, 3};      ///< Widths per second by which two things' speeds differ.
     Number settled = ms(100);     ///< Two that only brush each other for so long have not merged.
     Number clutterSome{8};        ///< Things that came and went, about two a second for long.
   } life;

@@ -97,8 +97,7 @@ Box bestPlace(const GroupGrid& e, const FitTask& task, FitScratch& s, const Numb
     for (int dx = -task.reachX; dx <= task.reachX; ++dx) {
       const Box place{box.x + dx, box.y + dy, box.width, box.height};
       const Box core{place.x + margin, place.y, place.width - 2 * margin, place.height};
-      const int64_t gain =
-          int64_t{sums.inside(place)} + (task.isOfOwnSize ? sums.inside(place) : sums.inside(core));
+      const int64_t gain = int64_t{sums.inside(place)} + sums.inside(core);
       if (gain < -std::get<0>(bestKey)) continue;
       // A shift by half the width costs a quarter of what a full box gains.
       const int64_t far = foreground *

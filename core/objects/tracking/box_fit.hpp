@@ -25,7 +25,6 @@ struct FitTask {
   int reachY = 0;
   int tier = 0;                    ///< Boxes of a lower tier choose first and don't yield.
   std::array<int8_t, 32> bonus{};  ///< By colour bin: −kMaxBonus … kMaxBonus.
-  bool isOfOwnSize = false;        ///< Its size is known from its own history, not from the scene.
   uint16_t track = 0;              ///< As in GroupGrid::expected; 0 = none.
   Box fitted;                      ///< Result.
 

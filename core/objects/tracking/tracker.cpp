@@ -188,7 +188,6 @@ FitTask Tracker::fitTaskOf(size_t index, const GroupGrid& e, int64_t stepNs) con
   const bool isNew = track.hits < n.firstHits.whole();
   task.reachX = isNew ? atFirst(n.firstReachX.of(width)) : within(n.reachX.of(width));
   task.reachY = isNew ? atFirst(n.firstReachY.of(height)) : within(n.reachY.of(height));
-  task.isOfOwnSize = isRigid(track);
   for (int bin = 0; bin < kColourBins && track.look.frames > 0; ++bin) {
     const int share = shareOf(track.look, bin);
     task.bonus[static_cast<size_t>(bin)] = share > n.ownColour.of(kFullMatch)    ? 2
@@ -335,7 +334,7 @@ Place Tracker::placeOf(size_t index) {
 }
 
 /// Nobody sees it: it goes on as it did for a while, not as in the last moment.
-void Tracker::miss(Track& track, const Sighting& s, int64_t stepNs) const {
+void Tracker::miss(Track& track, int64_t stepNs) const {
   const Numbers::Place& n = numbers_.place;
   if (track.unseenNs == 0 && track.centreSamples >= n.steadySamples.whole() && !isCovered(track)) {
     const auto isNear = [&](int32_t speed, int32_t steady, int32_t size) {
@@ -348,16 +347,6 @@ void Tracker::miss(Track& track, const Sighting& s, int64_t stepNs) const {
       track.speedY = track.steadyY;
     }
   }
-  const auto shift = [&](int64_t dx, int64_t dy) {
-    track.x = toInt(track.x + dx);
-    track.foot = toInt(track.foot + dy);
-    track.heldX = toInt(track.heldX + dx);
-    track.heldFoot = toInt(track.heldFoot + dy);
-  };
-  if (s.isBehind)
-    shift(s.matched.x - track.x, s.matched.y - track.foot);
-  else if (track.unseenNs > n.held.whole())
-    shift(-track.heldX, -track.heldFoot);
   track.unseenNs += stepNs;
 }
 
@@ -371,8 +360,7 @@ void Tracker::correct(size_t index, int64_t stepNs) {
       s.isMatched || (s.task >= 0 && s.cells > 0 && supportOf(track, s) >= least * int64_t{256});
   track.isWhole = track.isSeen && s.isWhole;
   track.isStanding = track.isSeen && s.isStanding;
-  if (!track.isSeen) return miss(track, s, stepNs);
-  track.heldX = track.heldFoot = 0;
+  if (!track.isSeen) return miss(track, stepNs);
   const Place place = placeOf(index);
   const int64_t sinceUs = std::max<int64_t>((track.unseenNs + stepNs) / 1000, 1000);
   const int64_t offX = place.x - track.x, offFoot = place.foot - track.foot;

@@ -58,8 +58,6 @@ struct Track {
   uint32_t ageFrames = 0;
   uint32_t hits = 0;                    ///< Frames in which it was seen.
   uint32_t sizeSamples = 0;             ///< Frames in which all of it was seen.
-  int32_t entryHeight = 0;              ///< Of what came in over a border at its side, in 1/16 px.
-  uint32_t entryFrames = 0;             ///< For how many frames that has stayed so.
   int32_t originX = 0, originFoot = 0;  ///< Where it was first seen.
   int32_t learntX = 0, learntFoot = 0;  ///< Where the scene's scale last learnt from it.
   int32_t centreX = 0, centreY = 0;     ///< From its box's middle to the mean of its pixels.
@@ -74,15 +72,11 @@ struct Track {
   uint64_t nextCompany = 0;
   int64_t companyNs = 0;           ///< Since nextCompany holds.
   int64_t apartNs = 0;             ///< For how long it was seen in a blob of its own.
-  int64_t usualNs = 0;             ///< For how long it was seen whole.
-  int64_t otherNs = 0;             ///< Since its own blob is of another size than it should be.
   int64_t partedNs = 0;            ///< Since it consists of several blobs.
   int64_t doubleNs = 0;            ///< Since it looks like a part of another track.
   int32_t partOffset = INT32_MIN;  ///< Between the middles of its blob and of another part above or
                                    ///< below, when they were first seen, in half pixels.
-  int32_t heldX = 0, heldFoot = 0;  ///< From where it should be, if it stopped behind others.
-  bool isBehind = false;            ///< When it was last seen, other things were about to cover it.
-  bool isStanding = false;          ///< Its regions show that it doesn't move in this frame.
+  bool isStanding = false;         ///< Its regions show that it doesn't move in this frame.
   bool isOver = false;
   bool hasMoved = false;
   bool isFromBorder = false;  ///< First seen where things come into the picture, or moving.
@@ -113,13 +107,12 @@ struct Sighting {
   bool isSole = false;         ///< Nobody else is in its blob.
   bool isWhole = false;        ///< `box` shows all of it.
   bool isMatched = false;      ///< Its portrait was found.
-  bool isBehind = false;       ///< It was not, but others stand before where it is.
   uint32_t share = 0;          ///< Of the portrait that was found, in 1/256.
   Box box;                     ///< Pixels, around the groups that it owns.
   uint64_t areaPx = 0;         ///< Of those groups.
   int64_t sumX = 0, sumY = 0;  ///< Of the places of their pixels, in 1/256 px.
   LookCounts look;
-  Point matched;  ///< Middle of the lower edge of the portrait, or where it is hidden, in 1/16 px.
+  Point matched;  ///< Middle of the lower edge of the portrait, in 1/16 px.
 };
 
 /// Middle of a box's lower edge, in 1/16 px.
@@ -235,8 +228,7 @@ class Tracker {
   [[nodiscard]] PortraitSearch searchOf(size_t index, int64_t stepNs) const;
   [[nodiscard]] PortraitMatch findTrack(const PortraitScene& scene, const PortraitTask& task);
   [[nodiscard]] bool isDisturbed(size_t index, const GroupGrid& evidence) const;
-  void hide(const PortraitScene& scene, size_t index, int64_t stepNs);
-  void giveMatch(const PortraitScene& scene, PortraitTask& task, int64_t stepNs);
+  void giveMatch(const PortraitScene& scene, PortraitTask& task);
   void learnPortrait(size_t index, const GroupGrid& evidence);
   void giveBlobs(const GroupGrid& evidence);
   template <class Visit>
@@ -251,7 +243,6 @@ class Tracker {
   [[nodiscard]] bool goesBehind(Track& track, const Box& box) const;
   void sight(const GroupGrid& evidence);
   [[nodiscard]] bool isSizeKnown(const Track& track) const;
-  void watchEntry(Track& track, const Sighting& sighting) const;
   [[nodiscard]] bool isRigid(const Track& track) const;
   void findNewcomers(const GroupGrid& evidence, const TrackerParams& params);
   void describeNewcomers(const GroupGrid& evidence);
@@ -276,7 +267,7 @@ class Tracker {
   [[nodiscard]] Place placeOf(size_t index);
   [[nodiscard]] bool hidesAnother(const Track& track) const;
   [[nodiscard]] Place placeOfWhole(Track& track, const Sighting& sighting) const;
-  void miss(Track& track, const Sighting& sighting, int64_t stepNs) const;
+  void miss(Track& track, int64_t stepNs) const;
   void mixSize(Track& track, const Sighting& sighting) const;
   void learnSize(size_t index, int64_t stepNs, const GroupGrid& evidence);
   [[nodiscard]] uint64_t parentOf(const Newcomer& newcomer) const;
@@ -285,7 +276,6 @@ class Tracker {
   void fitSizeToScene(Track& track) const;
   void learnScale(const GroupGrid& evidence);
   [[nodiscard]] bool outgrows(const Track& track, const Box& box) const;
-  [[nodiscard]] bool movesOtherwise(const Track& a, const Track& b) const;
   [[nodiscard]] bool areOneBody(const GroupGrid& evidence, size_t a, size_t b) const;
   void joinDoubles(const GroupGrid& evidence, int64_t stepNs);
   void findCompany(int64_t stepNs);

@@ -137,15 +137,6 @@ void Tracker::exchange(Track& a, Track& b) {
   }
 }
 
-/// Whether two tracks keep moving at other speeds.
-bool Tracker::movesOtherwise(const Track& a, const Track& b) const {
-  if (std::min(a.centreSamples, b.centreSamples) < numbers_.place.steadySamples.whole())
-    return false;
-  const int64_t dx = a.steadyX - b.steadyX, dy = a.steadyY - b.steadyY;
-  return std::abs(dx) + std::abs(dy) >
-         numbers_.life.otherSpeed * std::min(a.size.width, b.size.width);
-}
-
 /// Whether two tracks seem to be one body: they lie above each other as its halves do, or together
 /// show no more than one of them should.
 bool Tracker::areOneBody(const GroupGrid& e, size_t a, size_t b) const {
@@ -156,8 +147,7 @@ bool Tracker::areOneBody(const GroupGrid& e, size_t a, size_t b) const {
   if (blobOf_[a] != 0 && blobOf_[b] != 0 &&
       areApart(e, blobs_[blobOf_[a] - 1].group, blobs_[blobOf_[b] - 1].group))
     return false;
-  if (!scale_.isUniform() && (movesOtherwise(p, q) || isComplete(a, e) || isComplete(b, e)))
-    return false;
+  if (!scale_.isUniform() && (isComplete(a, e) || isComplete(b, e))) return false;
   if (outgrows(p, both) || outgrows(q, both)) return false;
   if (!scale_.isUniform() && blobOf_[a] != 0 && blobOf_[a] == blobOf_[b] &&
       std::min(p.apartNs, q.apartNs) < n.doubled.whole())

@@ -112,7 +112,7 @@ void Tracker::placeByPortraits(const GroupGrid& e, int64_t stepNs) {
   });
   for (size_t i = 0; i < tasks.size(); ++i) {
     if (isDisturbed(i, e)) tasks[i].match = findTrack(scene, tasks[i]);
-    giveMatch(scene, tasks[i], stepNs);
+    giveMatch(scene, tasks[i]);
   }
   for (const PortraitTask& task : tasks) {
     if (!sightings_[task.track].isMatched) continue;
@@ -162,25 +162,9 @@ bool Tracker::isDisturbed(size_t index, const GroupGrid& e) const {
   return false;
 }
 
-/// Who is hidden by others is where they hide all of it: it may have stopped there. Unless it shows
-/// again soon, something else hides it where it went on to.
-void Tracker::hide(const PortraitScene& scene, size_t index, int64_t stepNs) {
-  const Track& track = tracks_[index];
-  if (track.unseenNs > numbers_.place.held.whole()) return;
-  const Point corner = track.portraitCorner(), step = expectedShift(track, {}, stepNs);
-  const Point reach{1 + std::abs(step.x), 1 + std::abs(step.y)};
-  Sighting& s = sightings_[index];
-  s.isBehind = true;
-  s.matched = placeOfMatch(
-      track, corner,
-      findPortrait(track.portrait, scene,
-                   {corner, reach, static_cast<int>(numbers_.likeness.farFrom.whole()), {}},
-                   portraitScratch_, numbers_.likeness));
-}
-
 /// What is found of a track is its own; where too little is, it is hidden.
-void Tracker::giveMatch(const PortraitScene& scene, PortraitTask& task, int64_t stepNs) {
-  Track& track = tracks_[task.track];
+void Tracker::giveMatch(const PortraitScene& scene, PortraitTask& task) {
+  const Track& track = tracks_[task.track];
   const PortraitMatch& match = task.match;
   Sighting& s = sightings_[task.track];
   // A sliver tells of what keeps its shape.
@@ -189,9 +173,6 @@ void Tracker::giveMatch(const PortraitScene& scene, PortraitTask& task, int64_t 
   if (match.agreeing < std::max(n.leastAgreeing.whole(), least) ||
       match.agreeing < n.agreeing * match.seen) {
     s.task = -1;
-    if (track.unseenNs == 0) track.isBehind = match.covered >= n.covered * match.samples;
-    if (track.isBehind && match.ground >= n.onGround * match.samples)
-      hide(scene, task.track, stepNs);
     return;
   }
   const Point corner = track.portraitCorner();

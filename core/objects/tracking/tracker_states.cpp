@@ -39,7 +39,6 @@ void Tracker::moveWithCamera(Track& track, const CameraMotion& camera) {
   }
   const std::pair<int32_t*, int32_t*> directions[] = {{&track.speedX, &track.speedY},
                                                       {&track.steadyX, &track.steadyY},
-                                                      {&track.heldX, &track.heldFoot},
                                                       {&track.centreX, &track.centreY}};
   for (const auto& [x, y] : directions) {
     const Point now = change.of({*x, *y});
@@ -48,7 +47,7 @@ void Tracker::moveWithCamera(Track& track, const CameraMotion& camera) {
   }
   const int64_t scale = change.scale();
   int32_t* const lengths[] = {&track.size.width, &track.size.height, &track.stillSize.width,
-                              &track.stillSize.height, &track.entryHeight};
+                              &track.stillSize.height};
   for (int32_t* length : lengths) *length = toInt(divideRounded(*length * scale, LinearMap::kOne));
 }
 
@@ -58,22 +57,6 @@ bool Tracker::goesBehind(Track& track, const Box& box) const {
   const int fromRight = closedIn(track.leftEdge, box.x, box.right());
   const Numbers::Sizes& n = numbers_.sizes;
   return std::max(fromLeft, fromRight) >= std::max(n.closingPx.whole(), n.closing.of(box.width));
-}
-
-/// What comes in at the left or right shows its height before its width.
-void Tracker::watchEntry(Track& track, const Sighting& s) const {
-  const Box& box = s.box;
-  const bool isAtSide = box.x <= 0 || box.right() >= frame_.width;
-  const bool isAtEnd = box.y <= 0 || box.bottom() >= frame_.height;
-  if (!track.isSeen || !s.isSole || !isAtSide || isAtEnd) return;
-  const int32_t height = box.height * kUnit;
-  const bool hasStayed =
-      std::abs(height - track.entryHeight) <= numbers_.sizes.entryHeight * track.entryHeight;
-  if (hasStayed)
-    countUp(track.entryFrames);
-  else
-    track.entryFrames = 0;
-  if (!hasStayed) track.entryHeight = height;
 }
 
 /// How large a track of unknown size is of which `box` is seen: what the frame's border cuts off
@@ -118,27 +101,15 @@ void Tracker::learnSize(size_t index, int64_t stepNs, const GroupGrid& e) {
   if (track.isSeen && s.isSole) track.apartNs += stepNs;
   if (track.isSeen) track.seenNs += stepNs;
   track.partedNs = s.isParted ? track.partedNs + stepNs : 0;
-  watchEntry(track, s);
   const Box frame = boundsOf(e.frame);
   const bool isCut = s.box.x <= frame.x || s.box.y <= frame.y || s.box.right() >= frame.right() ||
                      s.box.bottom() >= frame.bottom();
-  // What is hidden in part is smaller, not larger.
+  if (!s.isWhole || !track.isSeen) return;
   const Numbers::Sizes& n = numbers_.sizes;
-  const auto isLargerThan = [&](int px, int64_t size) {
-    return px * kUnit - n.largerPx.whole() * kUnit > n.larger * size;
-  };
   const auto isOtherThan = [&](int px, int64_t size) {
     return px * kUnit < n.least * size || px * kUnit > n.most * size;
   };
   const Extent& size = track.size;
-  const bool isLarger =
-      isLargerThan(s.box.width, size.width) || isLargerThan(s.box.height, size.height);
-  const bool isWrong = track.isSeen && s.isSole && !s.isWhole && !scale_.isUniform() &&
-                       (isLarger || !(s.isMatched || isCut));
-  track.otherNs = isWrong ? track.otherNs + stepNs : 0;
-  if (s.isWhole && track.isSeen) track.usualNs += stepNs;
-  if (track.otherNs > std::max(n.otherSize.whole(), track.usualNs)) track.sizeSamples = 0;
-  if (!s.isWhole || !track.isSeen) return;
   const bool isOther =
       isOtherThan(s.box.width, size.width) || isOtherThan(s.box.height, size.height);
   // Nothing says where it ends beside somebody else.
@@ -191,7 +162,7 @@ bool Tracker::outgrows(const Track& track, const Box& box) const {
   };
   if (isSizeKnown(track))
     return isBeyond(box.width, track.size.width) || isBeyond(box.height, track.size.height);
-  return track.entryFrames >= n.entryFrames.whole() && isBeyond(box.height, track.entryHeight);
+  return false;
 }
 
 /// Where all things are of one size, a track that isn't was a part of one, or several at once: its

@@ -86,13 +86,6 @@ TEST(BoxFit, ColourDecidesWhoOwnsACellOfBoth) {
   EXPECT_EQ(owner[e.at(20, 20)], 2);
 }
 
-TEST(BoxFit, ABoxOfItsOwnSizeStaysWhenItIsHiddenInPart) {
-  const objects::GroupGrid e = gridWith({60, 60}, {{20, 20, 6, 20}});
-  objects::FitTask task = taskAt({20, 20, 16, 20});
-  task.isOfOwnSize = true;
-  EXPECT_EQ(fit(e, {task})[0].fitted, task.expected);
-}
-
 TEST(BoxFit, ABoxPrefersWhatIsExpectedToBeItsOwn) {
   objects::GroupGrid e = gridWith({60, 60}, {{14, 20, 8, 20}, {26, 20, 8, 20}});
   for (int y = 20; y < 40; ++y)

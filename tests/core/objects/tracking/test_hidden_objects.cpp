@@ -187,24 +187,6 @@ TEST(HiddenObjects, TwoThatCameInAboveEachOtherArePartedOnceTheyMoveApart) {
   }
 }
 
-TEST(HiddenObjects, WhoComesInBelowAnotherIsNoPartOfIt) {
-  BodyScene scene;
-  uint64_t id = 0;
-  for (int i = 0; i < 50; ++i) {
-    // As fast as the upper one, which shows all its height but not yet all its width.
-    const Body upper{{-40 + 3 * i, 84, 40, 36}, kRed}, lower{{-60 + 3 * i, 126, 40, 30}, kBlue};
-    const auto objects = scene.show({upper, lower});
-    if (upper.box.x < 2) continue;
-    for (const objects::Object& object : objects->objects)
-      if (objects::isListed(object.state) && object.box.y < 100 && id == 0) id = object.id;
-    const objects::Object* found = find(*objects, id);
-    ASSERT_NE(found, nullptr) << i;
-    EXPECT_NEAR(found->box.y, 84, 2) << i;
-    EXPECT_NEAR(found->box.height, 36, 4) << i;
-    EXPECT_NEAR(found->box.x, upper.box.x, 4) << i;
-  }
-}
-
 TEST(HiddenObjects, WhatIsCompleteTakesNoParts) {
   BodyScene scene;
   for (int i = 0; i < 60; ++i) {
