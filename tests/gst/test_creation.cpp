@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace rg {
@@ -73,7 +74,9 @@ void touchProperties(GstElement* element) {
     GValue value = G_VALUE_INIT;
     g_value_init(&value, specs[i]->value_type);
     g_object_get_property(G_OBJECT(element), specs[i]->name, &value);
-    EXPECT_TRUE(g_param_value_defaults(specs[i], &value)) << specs[i]->name;
+    // What regiontrack has set of a child is lost with it.
+    const bool isSetByBin = GST_IS_BIN(element) && std::string_view(specs[i]->name) == "camera";
+    EXPECT_TRUE(isSetByBin || g_param_value_defaults(specs[i], &value)) << specs[i]->name;
     g_object_set_property(G_OBJECT(element), specs[i]->name, &value);
     g_value_unset(&value);
   }
