@@ -4,14 +4,23 @@
 #include "core/base/time/time.hpp"
 #include "core/text/text.hpp"
 
+#include <algorithm>
+
 namespace rg::overlay {
 
-void Trails::moveAll(Point by) {
-  if (by == Point{}) return;
+void Trails::moveAll(const CameraMotion& camera) {
+  if (camera == CameraMotion()) return;
+  constexpr int kHalfPx = objects::kPositionUnit / 2;  // Places are those of pixels' middles.
+  constexpr int kFar = 1 << 20;
+  static_assert(objects::kPositionUnit == 1 << CameraMotion::kMotionBits);
   for (auto& [id, trail] : trails_) {
     for (size_t i = 0; i < trail.count; ++i) {
       Point& position = trail.ring[(trail.first + i) % kCapacity].position;
-      position = {position.x + by.x, position.y + by.y};
+      const Point by = camera.since({position.x - kHalfPx, position.y - kHalfPx});
+      const auto moved = [](int at, int step) {
+        return static_cast<int>(std::clamp<int64_t>(int64_t{at} + step, -kFar, kFar));
+      };
+      position = {moved(position.x, by.x), moved(position.y, by.y)};
     }
   }
 }
@@ -33,7 +42,7 @@ void Trails::append(Trail& trail, const Sample& sample) {
 }
 
 void Trails::advance(const objects::Objects& objects, int64_t nowNs, int64_t lengthNs) {
-  moveAll({objects.cameraDx, objects.cameraDy});
+  moveAll(objects.camera);
   for (const objects::Object& object : objects.objects) {
     if (!objects::isListed(object.state)) continue;
     Trail& trail = trails_[object.id];

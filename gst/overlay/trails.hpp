@@ -17,7 +17,8 @@ class Trails {
  public:
   void clear() { trails_.clear(); }
 
-  /// Adds the objects of one frame. Under a moving camera the trails move with the scene.
+  /// Adds the objects of one frame. Under a moving camera the trails move with the scene, each
+  /// point as the ground does there.
   /// lengthNs: what is older is forgotten.
   void advance(const objects::Objects& objects, int64_t nowNs, int64_t lengthNs);
 
@@ -38,7 +39,7 @@ class Trails {
     int64_t seenNs = 0;
   };
 
-  void moveAll(Point by);
+  void moveAll(const CameraMotion& camera);
   static void forget(Trail& trail, int64_t beforeNs);
   static void append(Trail& trail, const Sample& sample);
 

@@ -58,10 +58,27 @@ TEST(Trails, MoveWithTheSceneUnderAMovingCamera) {
   auto list = objects(kSize, {object(7, {10, 10, 2, 2})});
   trails.advance(*list, 0, kSecond);
   auto panned = objects(kSize, {object(7, {5, 10, 2, 2})});
-  panned->cameraDx = -5 * objects::kPositionUnit;
+  panned->setCamera(CameraMotion(Point{-5 * objects::kPositionUnit, 0}));
   trails.advance(*panned, kSecond / 10, kSecond);
   const auto points = trailOf(trails, panned->objects[0]);
   for (const Point& point : points) EXPECT_EQ(point, points.back());
+}
+
+TEST(Trails, GrowWithTheSceneUnderAZoom) {
+  constexpr int64_t kOne = CameraMotion::kOne;
+  Trails trails;
+  trails.advance(*objects(kSize, {object(7, {419, 139, 2, 2}), object(8, {319, 239, 2, 2})}), 0,
+                 kSecond);
+  const auto zoomed = objects(kSize, {object(7, {500, 60, 2, 2}), object(8, {319, 239, 2, 2})});
+  // What is at (320, 240) stays, all else goes away from it by a quarter.
+  zoomed->setCamera({{kOne * 4 / 5, 0, 0, 0, kOne * 4 / 5, 0, 0, 0, kOne}, {320, 240}});
+  trails.advance(*zoomed, kSecond / 10, kSecond);
+  const auto far = trailOf(trails, zoomed->objects[0]),
+             middle = trailOf(trails, zoomed->objects[1]);
+  EXPECT_NEAR(far.front().x, (320 + 125) * objects::kPositionUnit, objects::kPositionUnit);
+  EXPECT_NEAR(far.front().y, (240 - 125) * objects::kPositionUnit, objects::kPositionUnit);
+  EXPECT_NEAR(middle.front().x, 320 * objects::kPositionUnit, objects::kPositionUnit);
+  EXPECT_NEAR(middle.front().y, 240 * objects::kPositionUnit, objects::kPositionUnit);
 }
 
 TEST(Trails, EndWithTheirObject) {
