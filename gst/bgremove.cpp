@@ -235,10 +235,14 @@ class BgRemove final : public PixelFilter<Settings, background::Stage> {
     std::snprintf(text.data(), text.size(),
                   "%s, foreground %.2f %% of the frame in %zu areas%s, background off by %d,%d px",
                   text::name(seen->status).data(), 100 * seen->scene.foregroundPx / pixels,
-                  seen->areas.size(), seen->scene.isDark ? ", too dark to see" : "",
+                  seen->areas.size(),
+                  seen->scene.isDark           ? ", too dark to see"
+                  : seen->scene.isCameraMoving ? ", the camera moves"
+                                               : "",
                   seen->scene.shift.x, seen->scene.shift.y);
     const uint64_t state = static_cast<uint64_t>(seen->status) * 256 +
-                           static_cast<uint64_t>(seen->scene.event) * 2 + seen->scene.isDark;
+                           static_cast<uint64_t>(seen->scene.event) * 4 +
+                           seen->scene.isCameraMoving * 2u + seen->scene.isDark;
     return {state, text.data()};
   }
 
@@ -269,7 +273,8 @@ const FilterDescription kDescription{
         "Tells the moving foreground of a still camera's picture from its background. "
         "Attaches a mask (0 background, 128 shadow, 255 foreground) and the boxes of its "
         "connected parts to each buffer as a meta; pixels pass untouched. First of the "
-        "five stages; leave it out for a moving camera. Frames have at most 35389440 pixels "
+        "five stages; leave it out for a camera that moves all the time. Frames have at most "
+        "35389440 pixels "
         "(8192x4320)",
     .example =
         "gst-launch-1.0 videotestsrc pattern=ball num-buffers=100 ! "

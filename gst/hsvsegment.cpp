@@ -67,7 +67,10 @@ struct Settings : PixelSettings, segmentation::Params, BackendSettings {
 
 constexpr std::array kProperties{
     enumProperty<Settings, &Settings::scopeChoice>(
-        "scope", "Which pixels are divided into regions; auto is decided on the first frame",
+        "scope",
+        "Which pixels are divided into regions; auto is decided on the first frame, but for frames "
+        "in "
+        "which bgremove tells that the camera moves: of these it is the whole",
         scopeType),
     property<Settings, &Settings::similarity>(
         "similarity",

@@ -6,10 +6,11 @@
  * bgremove ! hsvsegment ! srg ! prmmotion ! mrfmerge in one element, for applications that take
  * one. Its properties are those of the five, under their own names; one that several have is set
  * for all of them, but for method, which is bgremove's. camera is auto here: while the camera moves
- * the whole frame is divided, as hsvsegment does without bgremove, unless scope says otherwise. The
- * children have the names of their
- * elements and can be reached through GstChildProxy as well (prmmotion::method); one that is none
- * is an error when the bin starts. Element messages come from the children.
+ * the whole frame is divided, as hsvsegment does without bgremove, unless scope says otherwise.
+ *
+ * The children have the names of their elements and can be reached through GstChildProxy as well
+ * (prmmotion::method); one that is none is an error when the bin starts. Element messages come from
+ * the children.
  *
  * |[
  * gst-launch-1.0 -q filesrc location=clip.avi ! decodebin ! videoconvert !

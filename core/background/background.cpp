@@ -41,6 +41,7 @@ class BackgroundStage final : public Stage {
   FrameClock clock_;
   Size size_;
   bool isGrey_ = false;
+  bool isCameraMoving_ = false;
   std::optional<Method> method_;
   std::unique_ptr<MethodModel> model_;
   Components parts_;
@@ -106,6 +107,8 @@ Result<std::shared_ptr<const Foreground>> BackgroundStage::process(
   const Box& extent = out->extent;
   const ImageView<uint8_t> mask = out->mask.view().crop(extent);
   if (out->interest) keepInside(out->interest->view().crop(extent), mask);
+  const bool wasMoving = std::exchange(isCameraMoving_, out->scene.isCameraMoving);
+  if (wasMoving && !isCameraMoving_) out->scene.event = SceneEvent::CameraStopped;
   if (std::exchange(hasLostModel_, false)) out->scene.event = SceneEvent::ModelLost;
   findComponents(mask, kForegroundPixel, Connectivity::Eight, parts_);
   out->areas.clear();

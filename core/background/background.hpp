@@ -79,7 +79,7 @@ enum class Method : uint8_t {
   FrameDifference,  ///< Section 2.1: what changed since the frame before, and what stopped since.
 };
 
-/// What a still camera's background can be told of.
+/// Whether the camera moves.
 enum class Camera : uint8_t {
   Auto,    ///< Decided from frame to frame, by method hybrid; the others take it to stand still.
   Still,   ///< It stands still, or sways and comes back.

@@ -17,11 +17,6 @@ constexpr int kBrightness = 20;     ///< Of 256: share of the brightness that is
 constexpr int kLearntGain = 50;     ///< The model learns a 50th of the gain as it is.
 constexpr int kMajority = 115;      ///< Of 256: share of foreground that keeps a pixel.
 
-/// Grey levels between the darkest and the brightest of a scene on a common day, but for a 64th of
-/// the pixels on either side. Fog and night leave less, and as much less of any difference in it.
-constexpr int kUsualRange = 180;
-constexpr int kExtremes = 4;  ///< Of 256: pixels on either side that are not looked at.
-constexpr int kFullContrast = 256;
 constexpr uint32_t kContrastFrames = 16;  ///< From one look at it to the next.
 
 constexpr uint32_t kOddShare = 8;           ///< Of 256: foreground that makes us look at the scene.
@@ -61,7 +56,8 @@ class ConsensusMethod final : public MethodModel {
   SceneEvent followCamera(const MethodJob& job);
   SceneEvent followLight(const MethodJob& job);
   bool isElsewhere(const MethodJob& job);
-  [[nodiscard]] bool cameraStarts(const MethodJob& job);
+  [[nodiscard]] bool cameraStarts(const MethodJob& job, uint64_t differing);
+  [[nodiscard]] bool isBlind(const MethodJob& job);
   void goAlong(Foreground& out) const;
   void clean(const MethodJob& job);
   void refine(const MethodJob& job);
@@ -116,12 +112,6 @@ void ConsensusMethod::start(const MethodJob& job, Foreground& out) {
   camera_.passOver();
   out.status = Status::Training;
   out.mask.fill(kBackgroundPixel);
-}
-
-/// Of kFullContrast: by how much grey levels of the scene differ, against a common day's.
-int contrastOf(const Histogram& levels) {
-  const int range = quantile(levels, 256 - kExtremes) - quantile(levels, kExtremes);
-  return std::clamp(kFullContrast * range / kUsualRange, 1, kFullContrast);
 }
 
 void ConsensusMethod::followContrast(const MethodJob& job) {
@@ -265,12 +255,20 @@ SceneEvent ConsensusMethod::followLight(const MethodJob& job) {
 
 /// A model that is being learnt does not say much of the camera, which is looked at in any case
 /// then.
-bool ConsensusMethod::cameraStarts(const MethodJob& job) {
+bool ConsensusMethod::cameraStarts(const MethodJob& job, uint64_t differing) {
   if (job.params.camera != Camera::Auto) return false;
-  const bool isOff = job.on.isEverywhere(verdicts_.raw);
-  if (isOff || isFirst(job)) return camera_.starts(isOff, job.executor);
+  const auto pixels = static_cast<uint64_t>(smooth_.size().area());
+  const bool isOff = differing * 256 >= pixels * kOddShare && job.on.isEverywhere(verdicts_.raw);
+  if (isOff || isFirst(job)) return camera_.starts(isOff, job.clock, job.executor);
   camera_.passOver();
   return false;
+}
+
+/// Of a camera that moves: looked at from time to time.
+bool ConsensusMethod::isBlind(const MethodJob& job) {
+  if ((++frame_).value() % kContrastFrames != 0) return false;
+  job.on.smooth(*job.picture, smooth_);
+  return job.on.isDarkerThan(smooth_, kDarkLevel);
 }
 
 /// The stages behind need not look for the camera's motion once more.
@@ -353,12 +351,13 @@ void ConsensusMethod::learnFrame(const MethodJob& job) {
 
 void ConsensusMethod::segment(const MethodJob& job, Foreground& out) {
   out.extent = boundsOf(job.picture->size());
+  const bool wasMoving = camera_.isMoving();
   camera_.show(job.params.camera == Camera::Auto ? job.picture : nullptr);
-  if (camera_.isMoving()) {
-    if (!camera_.stops(job.clock, job.executor)) return goAlong(out);
-    out.scene.event = SceneEvent::CameraStopped;
-    job.on.smooth(*job.picture, smooth_);
-    return start(job, out);
+  if (wasMoving) {
+    const bool goesOn = camera_.isMoving() && !camera_.stops(job.clock, job.executor);
+    if (goesOn && !isBlind(job)) return goAlong(out);
+    camera_.rest();
+    model_.channels = 0;  // What is to be seen now is new.
   }
   if (model_.channels == 0) {
     job.on.smooth(*job.picture, smooth_);
@@ -373,7 +372,7 @@ void ConsensusMethod::segment(const MethodJob& job, Foreground& out) {
   const uint64_t differing = job.on.countSet(verdicts_.raw);
   if ((isDark_ || differing * 256 >= pixels * kLightShare) && isTooDark(job, out)) return;
   watch(job, differing, out);
-  if (cameraStarts(job)) {
+  if (cameraStarts(job, differing)) {
     out.scene.event = SceneEvent::CameraStarted;
     return goAlong(out);
   }

@@ -72,7 +72,9 @@ Result<std::shared_ptr<const Motion>> MotionStage::process(
 CameraMotion MotionStage::cameraOf(const graph::Graph& graph) {
   const background::Foreground* found = graph.labels->foreground.get();
   const bool isKnown = found && found->cameraSince == previous_ && found->picture == graph.picture;
-  return isKnown ? found->camera : camera_.find(graph.picture, previous_, *context_.cpu);
+  if (!isKnown) return camera_.find(graph.picture, previous_, *context_.cpu);
+  camera_.reset();
+  return found->camera;
 }
 
 void MotionStage::match(const graph::Graph& graph, const Params& params, Motion& motion) {

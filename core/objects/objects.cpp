@@ -140,10 +140,13 @@ void ObjectStage::mergeRegions(const Input& in, const Params& params, int64_t st
   if (isStill || params.method == Method::Literal) movers_.reset();
   expectLabels(graph, stepNs, objects);
   if (params.method == Method::Literal) return mergeByEnergy(motion, weights, objects);
-  if (isStill)
+  if (isStill) {
     followTrends(motion, trends_, trend_, params.numbers.layers);
-  else
+  } else {
+    trends_.reset();
+    trend_.graph.reset();
     recallStanding(graph, objects);
+  }
   const motion::Motion& shown = isStill ? trend_ : motion;
   weighArcs(shown, expected_, weights, objects.arcs);
   startGroups();

@@ -85,6 +85,7 @@ GST_REGION_API GstRegionSceneEvent gst_region_foreground_meta_get_scene_event(
  * @meta: a foreground meta
  *
  * Returns: whether the camera moves, as bgremove's property camera has it: nothing is foreground
+ * then. FALSE in skipped frames
  *
  * Since: 0.2
  */

@@ -12,7 +12,7 @@
 
 namespace rg {
 
-inline constexpr uint8_t kStoredVersion = 1;
+inline constexpr uint8_t kStoredVersion = 2;
 
 /// All that readers are told of a result; not what it was made from.
 template <class Payload>

@@ -54,6 +54,8 @@ class StagedScene {
     EXPECT_TRUE(result);
     return *result;
   }
+  background::Params& params() { return params_; }
+  void breakOff() { stage_->reset(Reset::Gap); }
   /// As at the start, but time goes on.
   void forget() { stage_->reset(Reset::Stream); }
   std::shared_ptr<const background::Foreground> showFor(int frames, const Take& take) {

@@ -7,6 +7,7 @@
 
 #include "core/background/light/light_switch.hpp"
 #include "core/background/models/consensus_background.hpp"
+#include "core/base/histogram.hpp"
 #include "core/base/memory/executor.hpp"
 
 #include <algorithm>
@@ -23,6 +24,16 @@ inline constexpr int kMostGain = 2 * kSameGain, kLeastGain = kSameGain / 2;
   return gain * gain > kSameGain * kMostGain || gain * gain < kSameGain * kLeastGain;
 }
 static_assert(!isFar(kSameGain) && !isFar(724) && isFar(725) && isFar(362) && !isFar(363));
+
+/// By how much grey levels of a scene differ, against a common day's, on which so many lie between
+/// the darkest and the brightest, but for a 64th of the pixels on either side. Fog and night leave
+/// less, and as much less of any difference in it.
+inline constexpr int kUsualRange = 180, kFullContrast = 256;
+[[nodiscard]] inline int contrastOf(const Histogram& levels) {
+  constexpr int kExtremes = 4;  // Of 256.
+  const int range = quantile(levels, 256 - kExtremes) - quantile(levels, kExtremes);
+  return std::clamp(kFullContrast * range / kUsualRange, 1, kFullContrast);
+}
 
 /// By how much points of a grid are brighter than the model.
 struct GainSums {

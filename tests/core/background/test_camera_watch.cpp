@@ -121,6 +121,91 @@ TEST(CameraWatch, WhatIsAskedForNeedsNoLook) {
   }
 }
 
+/// A scene whose camera has been told to move.
+StagedScene turning(Point& push, int& frame) {
+  StagedScene scene = watched(Texture::Stone, 9);
+  for (; frame < 60; ++frame) scene.show(takeFrom(push, frame));
+  for (; frame < 75; ++frame) {
+    push.x += 4;
+    scene.show(takeFrom(push, frame));
+  }
+  EXPECT_TRUE(scene.show(takeFrom({push.x += 4, 0}, frame++))->scene.isCameraMoving);
+  return scene;
+}
+
+TEST(CameraWatch, WhatSwaysAfterATurnStandsStill) {
+  Point push;
+  int frame = 0, stoppedAt = -1;
+  StagedScene scene = turning(push, frame);
+  const int last = frame + 100;
+  for (; frame < last; ++frame) {
+    const Point sway{push.x + static_cast<int>(std::lround(2 * std::sin(frame * .9))), 0};
+    if (scene.show(takeFrom(sway, frame))->scene.event == SceneEvent::CameraStopped)
+      stoppedAt = frame;
+  }
+  EXPECT_GE(stoppedAt, last - 100 + 70);
+  EXPECT_LE(stoppedAt, last - 100 + 80);
+}
+
+TEST(CameraWatch, WhoAsksForAStillCameraInATurnGetsANewModel) {
+  for (const Camera camera : {Camera::Still, Camera::Moving}) {
+    Point push;
+    int frame = 0, stops = 0;
+    StagedScene scene = turning(push, frame);
+    scene.params().camera = camera;
+    auto seen = scene.show(takeFrom(push, frame++));
+    stops += seen->scene.event == SceneEvent::CameraStopped;
+    EXPECT_EQ(seen->scene.isCameraMoving, camera == Camera::Moving);
+    scene.params().camera = Camera::Auto;
+    for (int i = 0; i < 40; ++i) {
+      seen = scene.show(takeFrom(push, frame++));
+      stops += seen->scene.event == SceneEvent::CameraStopped;
+      EXPECT_FALSE(seen->scene.isCameraMoving);
+      EXPECT_LT(marksOf(*seen, {}).falsePercent, 12) << i;
+    }
+    EXPECT_EQ(stops, 1);
+  }
+}
+
+TEST(CameraWatch, DarknessInATurnIsDarkness) {
+  Point push;
+  int frame = 0;
+  StagedScene scene = turning(push, frame);
+  Take dark = takeFrom(push, frame);
+  dark.gainPercent = 0;
+  std::shared_ptr<const background::Foreground> seen;
+  for (int i = 0; i < 60; ++i) seen = scene.show(dark);
+  EXPECT_TRUE(seen->scene.isDark);
+  EXPECT_FALSE(seen->scene.isCameraMoving);
+  EXPECT_EQ(seen->scene.foregroundPx, 0u);
+  seen = scene.show(takeFrom(push, frame++));
+  EXPECT_EQ(seen->scene.event, SceneEvent::BrightAgain);
+  for (int i = 0; i < 30; ++i) seen = scene.show(takeFrom(push, frame++));
+  const auto marks = marksOf(*seen, walkerAt((frame - 1) % 60));
+  EXPECT_GE(marks.foundPercent, 60);
+  EXPECT_LT(marks.falsePercent, 3);
+}
+
+TEST(CameraWatch, AGapSaysNothingOfTheCamera) {
+  Point push;
+  int frame = 0;
+  StagedScene scene = turning(push, frame);
+  for (int i = 0; i < 60; ++i) {
+    scene.breakOff();
+    EXPECT_TRUE(scene.show(takeFrom({push.x += 4, 0}, frame++))->scene.isCameraMoving) << i;
+  }
+}
+
+/// Slower than what sways, and for longer than a second.
+TEST(CameraWatch, WhatAddsUpByChanceIsNoTurn) {
+  background::Params params;
+  params.camera = Camera::Auto;
+  params.trainingFrames = 2000;
+  StagedScene scene({Texture::Stone, 3, 2}, params);
+  for (int frame = 0; frame < 120; ++frame)
+    EXPECT_FALSE(scene.show(takeFrom({frame / 30, 0}, frame))->scene.isCameraMoving) << frame;
+}
+
 TEST(CameraWatch, OfAStillCameraNothingChanges) {
   StagedScene still = watched(Texture::Tiles, 4, Camera::Still);
   StagedScene autoScene = watched(Texture::Tiles, 4);

@@ -93,6 +93,8 @@ void expectLimited(const Image<uint8_t>& before, const Image<uint8_t>& now,
     EXPECT_EQ(found.d, right.d);
     EXPECT_EQ(found.sums, right.sums);
     EXPECT_EQ(found.rival, right.rival);
+    EXPECT_EQ(found.mean, right.mean);
+    EXPECT_EQ(found.isBeaten, right.isBeaten);
     if (least == 0) return;
     range.mostSum = least - 1;
     EXPECT_FALSE(motion::searchShifts(parts, now, previous, range, scratch).isWithin);
