@@ -9,7 +9,7 @@
 namespace rg::overlay {
 
 void Trails::moveAll(const CameraMotion& camera) {
-  if (camera == CameraMotion()) return;
+  if (camera == CameraMotion() || !camera.isSafe()) return;
   constexpr int kHalfPx = objects::kPositionUnit / 2;  // Places are those of pixels' middles.
   constexpr int kFar = 1 << 20;
   static_assert(objects::kPositionUnit == 1 << CameraMotion::kMotionBits);
