@@ -11,6 +11,20 @@ namespace rg::gpu {
 inline constexpr int kReduceThreads = 256;
 inline constexpr int kReduceWarps = kReduceThreads / kWarp;
 
+/// For reduceBlock().
+struct Total {
+  template <class T>
+  __device__ T operator()(T a, T b) const {
+    return a + b;
+  }
+};
+struct Least {
+  template <class T>
+  __device__ T operator()(T a, T b) const {
+    return a < b ? a : b;
+  }
+};
+
 /// join(a, b) of all threads' values, in every thread. join must not care for the order. values: a
 /// block's array of as many as it has warps. All of its threads must call.
 template <int warps = kReduceWarps, class T, class Array, class Join>

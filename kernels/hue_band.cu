@@ -38,11 +38,6 @@ struct Larger {
     return a > b ? a : b;
   }
 };
-struct Total {
-  __device__ unsigned long long operator()(unsigned long long a, unsigned long long b) const {
-    return a + b;
-  }
-};
 
 /// One block. The lowest of equal peaks is the best of keys in which lower hues win; the band ends
 /// before the nearest hue on either side that is too rare.

@@ -46,19 +46,6 @@ __global__ void sumChunks(const Run* runs, const LiteralChunk* chunks, int first
   atomicAdd(sums + region * side * side + shift, sum);
 }
 
-struct Total {
-  template <class T>
-  __device__ T operator()(T a, T b) const {
-    return a + b;
-  }
-};
-struct Least {
-  template <class T>
-  __device__ T operator()(T a, T b) const {
-    return a < b ? a : b;
-  }
-};
-
 /// A block has a chunk, a warp every eighth run of it. Pixels at the frame's edge have no gradient.
 __global__ void sumGradientsOfChunks(const Run* runs, const LiteralChunk* chunks,
                                      ImageView<const uint8_t> luma, GradientSums* sums) {

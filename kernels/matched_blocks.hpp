@@ -10,13 +10,6 @@
 
 namespace rg::gpu::motion {
 
-struct Total {
-  template <class T>
-  __device__ T operator()(T a, T b) const {
-    return a + b;
-  }
-};
-
 /// Calls visit(part, bit) for a thread's share of the blocks of the region that its block of
 /// threads has.
 template <class Visit>

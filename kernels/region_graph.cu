@@ -42,11 +42,6 @@ __device__ void addSums(const RegionSums& own, RegionSums& to) {
   atomicMax(&to.bottom, own.bottom);
 }
 
-__device__ uint32_t sumOfWarp(uint32_t value) {
-  for (int i = kWarp / 2; i > 0; i /= 2) value += __shfl_xor_sync(kFullWarp, value, i);
-  return value;
-}
-
 /// Inside of regions a warp adds its sums once.
 __global__ void sumRegions(const __grid_constant__ LabelledPicture labelled, RegionSums* sums) {
   const Point p = pixelOfThread();

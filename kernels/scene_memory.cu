@@ -15,10 +15,6 @@ using rg::background::OutlineSums;
 using rg::background::ScannedRows;
 using rg::background::SceneCounts;
 
-struct Total {
-  __device__ uint32_t operator()(uint32_t a, uint32_t b) const { return a + b; }
-};
-
 /// Threads take the compared columns of all rows in turns.
 __global__ void countSceneInTurns(ImageView<const uint8_t> now, ImageView<const uint8_t> scene,
                                   ImageView<const uint8_t> isKnown, int threshold, int perRow,
@@ -60,11 +56,6 @@ __global__ void learnPixels(const __grid_constant__ Planes now, ScannedRows scan
 struct OwnOutline {
   uint32_t inPicture = 0, inScene = 0, read = 0;
 };
-
-__device__ uint32_t sumOfWarp(uint32_t value) {
-  for (int i = kWarp / 2; i > 0; i /= 2) value += __shfl_xor_sync(kFullWarp, value, i);
-  return value;
-}
 
 /// A warp has a cell, a lane two of its pixels.
 __global__ void readOutlines(OutlineCells cells, ImageView<const uint8_t> pixels,

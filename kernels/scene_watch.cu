@@ -13,10 +13,6 @@ using rg::background::PointGrid;
 using rg::background::ShiftedSums;
 using rg::background::VividPoints;
 
-struct Total {
-  __device__ uint32_t operator()(uint32_t a, uint32_t b) const { return a + b; }
-};
-
 /// Calls visit(point) for a thread's share of a grid that a block walks.
 template <class Visit>
 __device__ void forPoints(const PointGrid& grid, const Visit& visit) {

@@ -8,6 +8,12 @@
 
 namespace rg::gpu::background {
 
+/// Of a grey picture's, its one channel thrice.
+[[nodiscard]] inline rg::background::ColourPlanes coloursOf(const Planes& from) {
+  const bool isGrey = from.channels == 1;
+  return {from.planes[isGrey ? 0 : 1], from.planes[0], from.planes[isGrey ? 0 : 2]};
+}
+
 /// rg::background::findShadows for planes in device memory.
 void findShadows(const rg::background::ColourPlanes& picture,
                  const rg::background::ColourPlanes& background, const BitView& mask,

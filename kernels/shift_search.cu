@@ -125,19 +125,6 @@ __device__ unsigned long long keyOf(uint32_t sum, Point d) {
   return static_cast<unsigned long long>(sum) << 32 | rank;
 }
 
-struct Least {
-  template <class T>
-  __device__ T operator()(T a, T b) const {
-    return a < b ? a : b;
-  }
-};
-struct Total {
-  template <class T>
-  __device__ T operator()(T a, T b) const {
-    return a + b;
-  }
-};
-
 /// A block for each region.
 __global__ void chooseShifts(const __grid_constant__ MatchedRegions regions, int firstRegion,
                              ShiftRange most, ShiftSums from, FoundShift* found) {

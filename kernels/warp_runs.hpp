@@ -9,6 +9,13 @@
 
 namespace rg::gpu {
 
+/// Of all lanes, in each of them.
+template <class T>
+__device__ T sumOfWarp(T value) {
+  for (int i = kWarp / 2; i > 0; i /= 2) value += __shfl_xor_sync(kFullWarp, value, i);
+  return value;
+}
+
 /// Neighbouring lanes of one key.
 struct LaneRun {
   int before;   ///< Lanes of it before this one.

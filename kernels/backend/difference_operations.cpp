@@ -9,6 +9,7 @@
 #include "kernels/mask_cleaning.hpp"
 #include "kernels/runtime.hpp"
 #include "kernels/scene_memory.hpp"
+#include "kernels/shadow.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -21,7 +22,6 @@ namespace {
 
 using rg::background::CellCounts;
 using rg::background::CellSearch;
-using rg::background::ColourPlanes;
 using rg::background::DifferenceFrame;
 using rg::background::Foreground;
 using rg::background::JudgedParts;
@@ -102,10 +102,6 @@ class DifferenceOnDevice final : public Cpu, private Dispatcher {
                                                         const ScannedRows& rows) {
     return rg::background::everyRow(plane, rows.first, rows.step);
   }
-  [[nodiscard]] static ColourPlanes colours(const Planes& from) {
-    const bool isGrey = from.channels == 1;
-    return {from.planes[isGrey ? 0 : 1], from.planes[0], from.planes[isGrey ? 0 : 2]};
-  }
   [[nodiscard]] Planes sceneOf(const SceneMemory& memory) const {
     return on().read(memory.images().seen, memory.images().channels);
   }
@@ -158,7 +154,8 @@ class DifferenceOnDevice final : public Cpu, private Dispatcher {
     const auto count = static_cast<int>(parts.size());
     const OutlineCells cells{sent(std::span<const OutlineCell>(outline_)),
                              static_cast<int>(outline_.size()), count};
-    const rg::background::OutlinePlanes planes{colours(on().read(now)), colours(sceneOf(memory)),
+    const rg::background::OutlinePlanes planes{coloursOf(on().read(now)),
+                                               coloursOf(sceneOf(memory)),
                                                memory.images().known.readOn(device())};
     auto* sums = scratch().take<OutlineSums>(count);
     sumOutlines(cells, search.pixels().readOn(device()), planes, sums, stream());

@@ -177,12 +177,9 @@ class PaperOnDevice final : public Cpu, private Dispatcher {
     paintMean(readMeans(model), mean, stream());
     const BitTarget found = scratchMask(size), shadow = scratchMask(size);
     packEqual(mask.readOn(device()), rg::background::kForegroundPixel, found, stream());
-    background::findShadows(colours(on().read(picture)), colours(mean), found, shadow, stream());
+    background::findShadows(coloursOf(on().read(picture)), coloursOf(mean), found, shadow,
+                            stream());
     paint(shadow, rg::background::kShadowPixel, mask.changeOn(device()), stream());
-  }
-  static rg::background::ColourPlanes colours(const Planes& from) {
-    const bool isGrey = from.channels == 1;
-    return {from.planes[isGrey ? 0 : 1], from.planes[0], from.planes[isGrey ? 0 : 2]};
   }
 
   std::vector<Component> parts_;
