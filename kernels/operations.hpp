@@ -87,7 +87,9 @@
   X(buildGraph, rg::graph::makeStage, rg::gpu::graph::buildGraph)                           \
   X(padLuma, rg::motion::PaddedLuma, rg::gpu::motion::padLuma)                              \
   X(padSmooth, rg::motion::PaddedLuma, rg::gpu::motion::padSmooth)                          \
-  X(sumMoments, rg::motion::sumMoments, rg::gpu::motion::sumMoments)                        \
+  X(fitAlone, rg::motion::MotionRefinement, rg::gpu::motion::fitAlone)                      \
+  X(findConsensus, rg::motion::MotionConsensus, rg::gpu::motion::findConsensus)             \
+  X(fitTogether, rg::motion::MotionRefinement, rg::gpu::motion::fitTogether)                \
   X(sumBoxes, rg::motion::BoxSums, rg::gpu::motion::sumBoxes)                               \
   X(searchShifts, rg::motion::searchShifts, rg::gpu::motion::searchShifts)                  \
   X(findStill, rg::motion::isUnchanged, rg::gpu::motion::findStill)                         \

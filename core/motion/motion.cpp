@@ -7,7 +7,6 @@
 #include "core/base/renewed_stage.hpp"
 #include "core/motion/camera/camera_view.hpp"
 #include "core/motion/matched_blocks.hpp"
-#include "core/motion/motion_refinement.hpp"
 #include "core/motion/operations.hpp"
 
 #include <algorithm>
@@ -44,7 +43,6 @@ class MotionStage final : public Stage {
   CameraSearch camera_;
   CameraView view_;
   std::vector<RegionMotion> inFrame_;  ///< Of each region, as if the camera stood still.
-  MotionRefinement refinement_;
   Pool<Motion> pool_;
 };
 
@@ -99,9 +97,9 @@ void MotionStage::match(const graph::Graph& graph, const Params& params, Motion&
 void MotionStage::search(const graph::Graph& graph, const Picture& before, const Params& params,
                          const WholeShifts& out) {
   const int maxShift = std::clamp(params.maxShiftPx, 1, kMostReach - 1);
-  operations_->searchShifts({*graph.picture, before, blocks_, maxShift}, out);
-  if (params.isSubpixel)
-    refinement_.run(graph, blocks_, before, operations_->previousLuma(), *context_.cpu, out.motion);
+  const MatchedFrames frames{*graph.picture, before, blocks_, maxShift};
+  operations_->searchShifts(frames, out);
+  if (params.isSubpixel) operations_->refine(graph, frames, out.motion);
 }
 
 /// In the previous frame as a fast camera makes it look now, and as it was, where what the camera

@@ -5,7 +5,7 @@
 // |I_t(x) − I_t−1(x − d)| smallest: by how much it moved since the previous frame. Matched are the
 // pixels away from the region's border (core/motion/matched_blocks.hpp). Pixels outside the
 // previous frame repeat its border. The fraction of a pixel follows from the gradients, and what a
-// region can't tell itself, from its neighbours (core/motion/motion_refinement.hpp).
+// region can't tell itself, from its neighbours (core/motion/refinement/motion_refinement.hpp).
 //
 // The reliability is what the region itself saw: low where the luma is flat, or changes along one
 // direction only, where another shift matches nearly as well, where the match is poor or differs

@@ -28,6 +28,11 @@ void Operations::searchShifts(const MatchedFrames& frames, const WholeShifts& ou
   });
 }
 
+void Operations::refine(const graph::Graph& graph, const MatchedFrames& frames,
+                        std::span<RegionMotion> motion) {
+  refinement_.run(graph, frames.blocks, frames.previous, searched_.luma, executor_, motion);
+}
+
 void Operations::matchAllPixels(const graph::Graph& graph, const Picture& previous, int maxShiftPx,
                                 std::span<RegionMotion> motion) {
   const ShiftRange range{maxShiftPx, maxShiftPx + 1};

@@ -10,6 +10,7 @@
 #include "core/motion/matched_blocks.hpp"
 #include "core/motion/motion.hpp"
 #include "core/motion/padded_luma.hpp"
+#include "core/motion/refinement/motion_refinement.hpp"
 #include "core/motion/shift_search.hpp"
 
 #include <cstdint>
@@ -57,12 +58,13 @@ class Operations {
   /// matchAllPixels() of each region of the graph, for shifts of up to maxShiftPx.
   virtual void matchAllPixels(const graph::Graph& graph, const Picture& previous, int maxShiftPx,
                               std::span<RegionMotion> motion);
-  /// The previous picture's luma as searchShifts() has padded it.
-  [[nodiscard]] const PaddedLuma& previousLuma() const { return searched_.luma; }
+  /// MotionRefinement::run(), after searchShifts() in the same frames.
+  virtual void refine(const graph::Graph& graph, const MatchedFrames& frames,
+                      std::span<RegionMotion> motion);
 
  protected:
   [[nodiscard]] const Executor& executor() const { return executor_; }
-  /// For what fits fractions of a pixel on the host. A ring of shifts beyond is seen, too.
+  /// For refine(), where the CPU has not searched shifts. A ring of shifts beyond is seen, too.
   void padLuma(const MatchedFrames& frames) {
     searched_.luma.build(frames.previous.luma(), frames.maxShiftPx + 1, executor_);
   }
@@ -70,6 +72,7 @@ class Operations {
  private:
   const Executor& executor_;
   SearchedPicture searched_;
+  MotionRefinement refinement_;
   std::vector<SearchScratch> scratch_;
   PaddedLuma literalLuma_;
   std::vector<LiteralScratch> literalScratch_;

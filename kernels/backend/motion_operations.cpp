@@ -2,6 +2,7 @@
 #include "kernels/backend/dispatcher.hpp"
 #include "kernels/literal_search.hpp"
 #include "kernels/motion_estimate.hpp"
+#include "kernels/motion_refinement.hpp"
 #include "kernels/shift_search.hpp"
 
 #include <algorithm>
@@ -13,6 +14,7 @@ namespace {
 
 using rg::motion::FoundShift;
 using rg::motion::GradientProducts;
+using rg::motion::MatchedBlocks;
 using rg::motion::MatchedFrames;
 using rg::motion::MatchedPart;
 using rg::motion::PaddedLuma;
@@ -27,8 +29,24 @@ class GpuOperations final : public Cpu, private Dispatcher {
 
   void searchShifts(const MatchedFrames& frames, const WholeShifts& out) override {
     listRegions(frames, out);
+    isPaddedHere_ = regions_.empty();
     if (regions_.empty()) return Cpu::searchShifts(frames, out);
-    runOrCatchUp([&] { searchOnDevice(frames, out); }, [&] { Cpu::searchShifts(frames, out); });
+    runOrCatchUp([&] { searchOnDevice(frames, out); },
+                 [&] {
+                   Cpu::searchShifts(frames, out);
+                   isPaddedHere_ = true;
+                 });
+  }
+  void refine(const rg::graph::Graph& graph, const MatchedFrames& frames,
+              std::span<RegionMotion> motion) override {
+    const auto onDevice = [&] {
+      refineOnDevice(graph, frames, motion);
+      std::copy(motions_.begin(), motions_.end(), motion.begin());
+    };
+    runOrCatchUp(onDevice, [&] {
+      if (!isPaddedHere_) padLuma(frames);
+      Cpu::refine(graph, frames, motion);
+    });
   }
   void matchAllPixels(const rg::graph::Graph& graph, const Picture& previous, int maxShiftPx,
                       std::span<RegionMotion> motion) override {
@@ -72,14 +90,59 @@ class GpuOperations final : public Cpu, private Dispatcher {
                                   sumsFor(range, count), found, stream());
     auto* motion = scratch().take<RegionMotion>(count);
     estimateMotion(regions, found, gradients, motion, stream());
-    // Meanwhile.
-    padLuma(frames);
     fetchList(still, static_cast<uint32_t>(count), stills_);
     fetchList(motion, static_cast<uint32_t>(count), motions_);
     for (size_t i = 0; i < regions_.size(); ++i) {
       out.isStill[regions_[i]] = stills_[i];
       out.take(regions_[i], motions_[i]);
     }
+  }
+
+  /// Leaves in motions_ what it finds.
+  void refineOnDevice(const rg::graph::Graph& graph, const MatchedFrames& frames,
+                      std::span<const RegionMotion> motion) {
+    listRefined(graph, frames.blocks, motion);
+    const auto count = static_cast<int>(motion.size());
+    const RefinedRegions regions{
+        {sent(frames.blocks.parts()), sent(std::span<const uint32_t>(starts_)), count},
+        sent(std::span<const rg::motion::RefinedRegion>(refined_)),
+        scratch().take<FitState>(count)};
+    const SeenPlanes planes = planesOf(frames);
+    const SeenMotions seen{scratch().take<rg::motion::SeenMotion>(count),
+                           scratch().take<int32_t>(count),
+                           scratch().take<rg::motion::MotionBelief>(count),
+                           scratch().take<rg::motion::MotionPrior>(count)};
+    fitAlone(regions, planes, seen, stream());
+    // Meanwhile.
+    neighbours_.find(graph);
+    const bool hasAny = !neighbours_.list().empty();
+    const NeighboursView neighbours{sent(neighbours_.starts()), sent(neighbours_.counts()),
+                                    hasAny ? sent(neighbours_.list()) : nullptr};
+    findConsensus(neighbours, seen, scratch().take<rg::motion::MotionBelief>(count), count,
+                  stream());
+    auto* refined = scratch().take<RegionMotion>(count);
+    send(refined, motion.data(), motion.size_bytes());
+    fitTogether(regions, planes, seen.priors, refined, stream());
+    fetchList(refined, static_cast<uint32_t>(count), motions_);
+  }
+  /// All of them.
+  void listRefined(const rg::graph::Graph& graph, const MatchedBlocks& blocks,
+                   std::span<const RegionMotion> motion) {
+    refined_.clear();
+    starts_.assign(1, 0);
+    for (size_t i = 0; i < motion.size(); ++i) {
+      refined_.push_back(rg::motion::refinedRegion(graph, blocks, motion, i));
+      const auto label = rg::segmentation::RegionLabel::ofIndex(i);
+      starts_.push_back(starts_.back() + static_cast<uint32_t>(blocks.partsOf(label).size()));
+    }
+  }
+  [[nodiscard]] SeenPlanes planesOf(const MatchedFrames& frames) const {
+    const ImageView<const uint8_t> luma = frames.current.readOn(device()).luma;
+    const ImageView<const uint8_t> before = frames.previous.readOn(device()).luma;
+    const int reach = frames.maxShiftPx + 1;
+    const ImageView<uint8_t> smooth = smoothed(luma, reach).rows;
+    const ImageView<const uint8_t> inside{smooth.row(reach) + reach, luma.size, smooth.strideBytes};
+    return {{luma, padded(before, reach)}, {inside, smoothed(before, reach)}};
   }
 
   /// Leaves in motions_ what it finds.
@@ -99,11 +162,20 @@ class GpuOperations final : public Cpu, private Dispatcher {
     fetchList(motion, count, motions_);
   }
 
-  [[nodiscard]] PaddedView padded(ImageView<const uint8_t> before, int reach) const {
-    const Size size{before.width() + 2 * reach + PaddedLuma::kSlack, before.height() + 2 * reach};
-    const PaddedView previous{before.size, reach, scratchPlane<uint8_t>(size)};
-    rg::gpu::motion::padLuma(before, previous, stream());
-    return previous;
+  [[nodiscard]] PaddedView roomFor(Size size, int reach) const {
+    return {size, reach,
+            scratchPlane<uint8_t>(
+                {size.width + 2 * reach + PaddedLuma::kSlack, size.height + 2 * reach})};
+  }
+  [[nodiscard]] PaddedView padded(ImageView<const uint8_t> luma, int reach) const {
+    const PaddedView room = roomFor(luma.size, reach);
+    rg::gpu::motion::padLuma(luma, room, stream());
+    return room;
+  }
+  [[nodiscard]] PaddedView smoothed(ImageView<const uint8_t> luma, int reach) const {
+    const PaddedView room = roomFor(luma.size, reach);
+    padSmooth(luma, room, stream());
+    return room;
   }
   [[nodiscard]] SearchedPlanes searched(ImageView<const uint8_t> luma,
                                         ImageView<const uint8_t> before, int reach) const {
@@ -125,6 +197,9 @@ class GpuOperations final : public Cpu, private Dispatcher {
     return {scratch().take<uint32_t>(sums), scratch().take<uint32_t>(sums), regions};
   }
 
+  bool isPaddedHere_ = false;  ///< searchShifts() was the CPU's.
+  rg::motion::MotionNeighbours neighbours_;
+  std::vector<rg::motion::RefinedRegion> refined_;
   std::vector<uint32_t> regions_, starts_;
   std::vector<GradientProducts> gradients_;
   std::vector<uint8_t> stills_;

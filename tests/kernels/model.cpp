@@ -219,16 +219,19 @@ void launchSearch(const Memory& m, const Search& search) {
   const gpu::motion::BoxesView boxes{plane<uint16_t>(padded)};
   const gpu::motion::MatchedRegions regions{nullptr, nullptr, search.regions};
   gpu::motion::findStill(regions, m.planes.planes[0], m.planes.planes[0], nullptr, nullptr);
-  gpu::motion::sumGradients(regions, m.planes.planes[0], nullptr, nullptr);
   gpu::motion::padLuma(m.planes.planes[0], luma, nullptr);
   gpu::motion::sumBoxes(luma, boxes, nullptr);
   gpu::motion::searchShifts(regions, {m.planes.planes[0], luma, boxes}, range,
                             {nullptr, nullptr, search.regions}, nullptr, nullptr);
   gpu::motion::estimateMotion(regions, nullptr, nullptr, nullptr, nullptr);
   gpu::motion::padSmooth(m.planes.planes[0], luma, nullptr);
-  constexpr int kFits = 9;  // Two trials on two planes, two steps from there, three from the prior.
-  for (int i = 0; i < kFits; ++i)
-    gpu::motion::sumMoments(regions, nullptr, m.planes.planes[0], luma, nullptr, nullptr);
+  gpu::motion::padSmooth(m.planes.planes[0], luma, nullptr);
+  gpu::motion::padLuma(m.planes.planes[0], luma, nullptr);
+  const gpu::motion::SeenPlanes seen{{m.planes.planes[0], luma}, {m.planes.planes[0], luma}};
+  const gpu::motion::RefinedRegions refined{regions, nullptr, nullptr};
+  gpu::motion::fitAlone(refined, seen, {}, nullptr);
+  gpu::motion::findConsensus({}, {}, nullptr, search.regions, nullptr);
+  gpu::motion::fitTogether(refined, seen, nullptr, nullptr, nullptr);
 }
 
 /// Method literal: all pixels of the frame, each region some rows of it.

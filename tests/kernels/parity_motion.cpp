@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/motion/literal_search.hpp"
 #include "core/motion/shift_search.hpp"
-#include "kernels/fit_moments.hpp"
 #include "kernels/literal_search.hpp"
 #include "kernels/motion_estimate.hpp"
 #include "kernels/shift_search.hpp"
+#include "tests/kernels/matched_regions.hpp"
 #include "tests/kernels/parity.hpp"
 
 #include <span>
@@ -16,13 +16,6 @@ namespace {
 
 using motion::FoundShift;
 using motion::MatchedPart;
-
-struct DeviceLuma {
-  Plane<uint8_t> rows;
-  gpu::motion::PaddedView view;
-  DeviceLuma(const motion::PaddedLuma& like, Size size)
-      : rows(like.rows().size), view{size, like.reach(), rows} {}
-};
 
 template <class Check>
 void forPadded(const Check& check) {
@@ -36,48 +29,6 @@ void forPadded(const Check& check) {
   });
 }
 
-/// Regions with parts of all kinds of gaps, in all corners of the picture.
-struct Regions {
-  std::vector<MatchedPart> parts;
-  std::vector<uint32_t> starts{0};
-
-  explicit Regions(Size size) {
-    for (uint16_t label = 1; label <= 5; ++label) {
-      for (int strip = 0; strip * motion::kPartHeight < size.height; ++strip)
-        for (int column = 0; column * motion::kPartWidth < size.width; ++column)
-          if (hashOf(column, strip, label) % 3 == 0) add(size, {column, strip}, label);
-      if (parts.size() > starts.back()) starts.push_back(static_cast<uint32_t>(parts.size()));
-    }
-  }
-  void add(Size size, Point at, uint16_t label) {
-    const uint32_t hash = hashOf(at.x, at.y, 90u + label);
-    uint64_t blocks = hash % 3 == 0   ? ~uint64_t{0}
-                      : hash % 3 == 1 ? uint64_t{1} << hash % 64
-                                      : uint64_t{hash} << 32 | hashOf(at.x, at.y, label);
-    const int rows = size.height - at.y * motion::kPartHeight;
-    if (rows < motion::kPartHeight) blocks &= (uint64_t{1} << (2 * rows)) - 1;
-    if ((at.x + 1) * motion::kPartWidth > size.width) blocks &= 0x5555555555555555;
-    if (at.x * motion::kPartWidth + motion::kBlockWidth > size.width || blocks == 0) return;
-    parts.push_back({blocks, static_cast<uint16_t>(at.x), static_cast<uint16_t>(at.y),
-                     segmentation::RegionLabel::ofNumber(label)});
-  }
-  [[nodiscard]] int count() const { return static_cast<int>(starts.size()) - 1; }
-  [[nodiscard]] gpu::motion::MatchedRegions view() const {
-    return {parts.data(), starts.data(), count()};
-  }
-  [[nodiscard]] std::vector<uint8_t> unchanged(const Image<uint8_t>& now,
-                                               const Image<uint8_t>& before) const {
-    std::vector<uint8_t> still;
-    for (int i = 0; i < count(); ++i)
-      still.push_back(motion::isUnchanged(of(i), now, before) ? 1 : 0);
-    return still;
-  }
-  [[nodiscard]] std::span<const MatchedPart> of(int region) const {
-    const auto i = static_cast<size_t>(region);
-    return std::span(parts).subspan(starts[i], starts[i + 1] - starts[i]);
-  }
-};
-
 void expectSame(const FoundShift& found, const FoundShift& expected) {
   ASSERT_EQ(found.d, expected.d);
   ASSERT_EQ(found.sums, expected.sums);
@@ -85,18 +36,6 @@ void expectSame(const FoundShift& found, const FoundShift& expected) {
   ASSERT_EQ(found.mean, expected.mean);
   ASSERT_EQ(found.isBeaten, expected.isBeaten);
 }
-
-/// The picture before, and what moved a little since then, but for the upper half of it.
-struct MovedPicture {
-  Image<uint8_t> before, now;
-  MovedPicture(Size size, int fill) : before(filled(size, fill)), now(size) {
-    for (int y = 0; y < size.height; ++y)
-      for (int x = 0; x < size.width; ++x)
-        now.at(x, y) = y < size.height / 2
-                           ? before.at(x, y)
-                           : static_cast<uint8_t>(levelAt(fill, x + 2, y + 1) + (x * y % 7 == 0));
-  }
-};
 
 void checkSearch(Size size, int fill, const motion::ShiftRange& range) {
   const MovedPicture moved(size, fill);
@@ -127,15 +66,6 @@ void checkSearch(Size size, int fill, const motion::ShiftRange& range) {
   }
 }
 
-template <class Check>
-void forMoved(const Check& check) {
-  for (const Size size : {Size{4, 1}, Size{13, 9}, Size{47, 40}, Size{64, 65}})
-    for (int fill = 0; fill < kFills && !::testing::Test::HasFailure(); ++fill) {
-      SCOPED_TRACE(std::to_string(size.width) + ", fill " + std::to_string(fill));
-      check(MovedPicture(size, fill), Regions(size));
-    }
-}
-
 }  // namespace
 
 void parity_padLuma() {
@@ -154,41 +84,6 @@ void parity_padSmooth() {
     gpu::motion::padSmooth(Plane<uint8_t>(luma.view()), there.view, nullptr);
     there.rows.expect(smooth.rows(), "smoothed");
   });
-}
-
-/// Displacements and slopes up to the reach, limits of all kinds.
-void parity_sumMoments() {
-  int64_t seen = 0, fitting = 0;
-  forMoved([&](const MovedPicture& moved, const Regions& regions) {
-    motion::PaddedLuma before;
-    before.build(moved.before, 7, oneThread());
-    DeviceLuma previous(before, moved.before.size());
-    gpu::motion::padLuma(Plane<uint8_t>(moved.before.view()), previous.view, nullptr);
-    std::vector<gpu::motion::FittedRegion> fitted;
-    std::vector<motion::FitMoments> expected, found(static_cast<size_t>(regions.count()));
-    for (int i = 0; i < regions.count(); ++i) {
-      const auto draw = [&](uint32_t what, int most) {
-        return static_cast<int>(hashOf(i, moved.now.width(), what) %
-                                static_cast<uint32_t>(2 * most + 1)) -
-               most;
-      };
-      const int most = i % 3 == 0 ? 8 * motion::kFine : 2 * motion::kFine;
-      fitted.push_back({{{draw(1, most), draw(2, most)},
-                         {draw(3, 256), draw(4, 256), draw(5, 9), draw(6, 256)},
-                         {20 + draw(7, 20), 20 + draw(8, 20)}},
-                        i % 2 == 0 ? motion::kMostLimit : 900 + draw(9, 800)});
-      const motion::FitPlane plane{moved.now, &before};
-      expected.push_back(
-          motion::sumMoments(regions.of(i), plane, fitted.back().field, fitted.back().limit));
-      seen += expected.back().seen;
-      fitting += expected.back().pixels;
-    }
-    gpu::motion::sumMoments(regions.view(), fitted.data(), Plane<uint8_t>(moved.now.view()),
-                            previous.view, found.data(), nullptr);
-    ASSERT_EQ(found, expected);
-  });
-  EXPECT_GT(fitting, 0);
-  EXPECT_GT(seen, fitting);
 }
 
 void parity_sumBoxes() {

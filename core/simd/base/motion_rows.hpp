@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// The loops over one row that core/objects/merge/own_motion.cpp, core/motion/motion_refinement.cpp
-// and core/motion/padded_luma.cpp are made of, compiled for every instruction set.
+// The loops over one row that core/objects/merge/own_motion.cpp and core/motion/padded_luma.cpp are
+// made of, compiled for every instruction set.
 //
 // Each is written once, in plain integer arithmetic on independent pixels; the compiler makes the
 // vectors. So all targets, the plain one among them, give the same bits.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "core/motion/motion_consensus.hpp"
+#include "core/motion/refinement/motion_consensus.hpp"
 
 #include <gtest/gtest.h>
 

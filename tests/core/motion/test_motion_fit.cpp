@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/motion/matched_blocks.hpp"
-#include "core/motion/motion_fit.hpp"
+#include "core/motion/refinement/motion_fit.hpp"
 #include "tests/core/scenes.hpp"
 
 #include <gtest/gtest.h>
@@ -85,7 +85,7 @@ TEST(MotionFit, FindsTheVectorAtTheCentroidOfATurningRegion) {
   motion::MatchedBlocks blocks;
   blocks.find(**graph::makeStage(contextWith(1))->process(labels, {}), Executor(1));
   const motion::FitRegion fitted{
-      blocks.partsOf(segmentation::RegionLabel::ofIndex(0)), {48, 48}, 40 * motion::kFine, 64 * 64};
+      blocks.partsOf(segmentation::RegionLabel::ofIndex(0)), {48, 48}, 40 * motion::kFine};
   motion::MotionFit start;
   start.at = {2 * motion::kFine, -motion::kFine};
   const motion::MotionFit fit = motion::fitMotion(fitted, {now->luma(), &previous}, start, {}, 6);
@@ -108,7 +108,7 @@ TEST(MotionFit, APriorDecidesAlongAnEdge) {
   motion::MatchedBlocks blocks;
   blocks.find(**graph::makeStage(contextWith(1))->process(labels, {}), Executor(1));
   const motion::FitRegion fitted{
-      blocks.partsOf(segmentation::RegionLabel::ofIndex(0)), {32, 32}, 40 * motion::kFine, 40 * 40};
+      blocks.partsOf(segmentation::RegionLabel::ofIndex(0)), {32, 32}, 40 * motion::kFine};
   motion::MotionFit start;
   start.at = {2 * motion::kFine, 0};
   const motion::MotionPrior prior{{5 * motion::kFine, motion::kFine}, 4 * 256};

@@ -5,13 +5,13 @@
 // it belongs to can. Each region looks for the vector that agrees with what it saw itself and with
 // its neighbours: those with a long common border, little contrast across it and a like colour
 // count most, and those far from the vector that most agree on hardly at all. Vectors spread from
-// the sure to the unsure in a few sweeps. Determinism: integers; a sweep reads what the sweep
-// before wrote.
+// the sure to the unsure in a few sweeps (core/motion/refinement/consensus_sweep.hpp).
+// Determinism: integers; a sweep reads what the sweep before wrote.
 #pragma once
 
 #include "core/base/memory/executor.hpp"
 #include "core/graph/graph.hpp"
-#include "core/motion/motion_fit.hpp"
+#include "core/motion/refinement/consensus_sweep.hpp"
 
 #include <cstdint>
 #include <span>
@@ -19,10 +19,21 @@
 
 namespace rg::motion {
 
-/// What a region saw of its own motion.
-struct SeenMotion {
-  Point at;                 ///< 1/256 px.
-  Information information;  ///< All 0: nothing.
+/// Of each region those that count most, at most kMostNeighbours.
+class MotionNeighbours {
+ public:
+  void find(const graph::Graph& graph);
+
+  /// Those of the label of index i: list()[starts()[i]] and counts()[i] − 1 behind it.
+  [[nodiscard]] std::span<const uint32_t> starts() const { return starts_; }
+  [[nodiscard]] std::span<const uint32_t> counts() const { return counts_; }
+  [[nodiscard]] std::span<const MotionNeighbour> list() const { return list_; }
+
+ private:
+  void keepStrongest(size_t region);
+
+  std::vector<uint32_t> starts_, counts_;
+  std::vector<MotionNeighbour> list_;
 };
 
 class MotionConsensus {
@@ -33,28 +44,9 @@ class MotionConsensus {
                                    const Executor& executor);
 
  private:
-  struct Neighbour {
-    uint32_t region = 0;
-    int32_t weight = 0;
-  };
-  struct Belief {
-    Point at;
-    int32_t trust = 0;  ///< 0 … 256.
-  };
-
-  void findNeighbours(const graph::Graph& graph);
-  void keepStrongest(size_t region);
-  void sweep(size_t region, const SeenMotion& own);
-  [[nodiscard]] Point findCentre(size_t region, const SeenMotion& own) const;
-  [[nodiscard]] int64_t disagreement(size_t region, const SeenMotion& own, Point at) const;
-  [[nodiscard]] std::span<const Neighbour> neighboursOf(size_t region) const {
-    return {neighbours_.data() + starts_[region], counts_[region]};
-  }
-
-  std::vector<uint32_t> starts_, counts_;
-  std::vector<Neighbour> neighbours_;
+  MotionNeighbours neighbours_;
   std::vector<int32_t> ownTrust_;
-  std::vector<Belief> before_, after_;
+  std::vector<MotionBelief> before_, after_;
   std::vector<MotionPrior> priors_;
 };
 

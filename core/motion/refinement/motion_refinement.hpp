@@ -4,16 +4,18 @@
 //
 // Each region is fitted from its own vector, on the luma or the smoothed luma, whichever tells
 // more: fine texture drowns in noise on the one side, and is smoothed away on the other. Then all
-// look for a consensus (core/motion/motion_consensus.hpp), and each is fitted again with it as its
-// prior, from its own vector and, where the consensus is elsewhere, from there. The consensus wins
-// where it explains the pixels as well as the region's own vector does, up to what chance leaves.
+// look for a consensus (core/motion/refinement/motion_consensus.hpp), and each is fitted again with
+// it as its prior, from its own vector and, where the consensus is elsewhere, from there. Which of
+// the fits counts, core/motion/refinement/refinement_rules.hpp says.
 // Determinism: integers; regions depend on each other through the consensus only.
 #pragma once
 
 #include "core/base/picture.hpp"
 #include "core/motion/matched_blocks.hpp"
 #include "core/motion/motion.hpp"
-#include "core/motion/motion_consensus.hpp"
+#include "core/motion/refinement/motion_consensus.hpp"
+#include "core/motion/refinement/motion_fit.hpp"
+#include "core/motion/refinement/refinement_rules.hpp"
 
 #include <array>
 #include <memory>
@@ -21,6 +23,15 @@
 #include <vector>
 
 namespace rg::motion {
+
+/// What is fitted of the region of index i, whose whole-pixel vector is motion[i].
+[[nodiscard]] inline RefinedRegion refinedRegion(const graph::Graph& graph,
+                                                 const MatchedBlocks& blocks,
+                                                 std::span<const RegionMotion> motion, size_t i) {
+  const graph::Region& region = graph.regions[i];
+  return refinedRegion(motion[i], {region.centroidX, region.centroidY},
+                       blocks.pixelsOf(segmentation::RegionLabel::ofIndex(i)));
+}
 
 class MotionRefinement {
  public:
@@ -32,18 +43,17 @@ class MotionRefinement {
 
  private:
   struct Candidate {
+    RefinedRegion region;
     MotionFit fit;
     uint8_t plane = 0;
   };
 
-  void smooth(const Picture& before, int reach, const Executor& executor);
-  [[nodiscard]] FitRegion regionOf(size_t i, std::span<const RegionMotion> motion) const;
-  [[nodiscard]] Candidate fitAlone(const FitRegion& region, const RegionMotion& motion) const;
+  void smooth(const graph::Graph& graph, const Picture& before, int reach,
+              const Executor& executor);
+  void fitAlone(const FitRegion& region, Candidate& own) const;
   [[nodiscard]] MotionFit fitTogether(const FitRegion& region, const Candidate& own,
-                                      const MotionPrior& prior, int reliability) const;
+                                      const MotionPrior& prior) const;
 
-  const graph::Graph* graph_ = nullptr;
-  const MatchedBlocks* blocks_ = nullptr;
   PaddedLuma smoothCurrent_, smoothPrevious_;
   std::shared_ptr<const Picture> smoothOf_;  ///< Whose smooth luma smoothCurrent_ holds.
   std::array<FitPlane, 2> planes_;

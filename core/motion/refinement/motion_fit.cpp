@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "core/motion/refinement/motion_fit.hpp"
+
+namespace rg::motion {
+
+MotionFit fitMotion(const FitRegion& region, const FitPlane& plane, const MotionFit& start,
+                    const MotionPrior& prior, int steps) {
+  MotionFit fit = start;
+  FitEquations equations{};
+  const FitStart from{start.at, plane.previous->reach()};
+  for (int i = 0; i < steps; ++i) {
+    const FitMoments moments =
+        sumMoments(region.parts, plane, {fit.at, fit.slopes, region.centroid}, region.limit);
+    if (takeStep(moments, from, prior, equations, fit)) break;
+  }
+  return fit;
+}
+
+}  // namespace rg::motion
