@@ -141,6 +141,11 @@ class Access {
     const Picture::Planes planes = picture.readOn(device_);
     return {{planes.green, planes.red, planes.blue}, picture.isGrey() ? 1 : 3};
   }
+  /// The same, red first.
+  [[nodiscard]] Planes readRed(const Picture& picture) const {
+    const Picture::Planes planes = picture.readOn(device_);
+    return {{planes.red, planes.green, planes.blue}, picture.isGrey() ? 1 : 3};
+  }
   [[nodiscard]] Planes read(const rg::background::SmoothPicture& picture) const {
     return read(picture.planes, picture.channels);
   }

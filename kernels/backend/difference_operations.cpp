@@ -152,8 +152,7 @@ class DifferenceOnDevice final : public Cpu, private Dispatcher {
                           std::span<const uint32_t> parts, std::vector<uint8_t>& isGhost) {
     listCells(search, parts);
     const auto count = static_cast<int>(parts.size());
-    const OutlineCells cells{sent(std::span<const OutlineCell>(outline_)),
-                             static_cast<int>(outline_.size()), count};
+    const OutlineCells cells{sent(outline_), static_cast<int>(outline_.size()), count};
     const rg::background::OutlinePlanes planes{coloursOf(on().read(now)),
                                                coloursOf(sceneOf(memory)),
                                                memory.images().known.readOn(device())};

@@ -94,6 +94,10 @@ class Dispatcher {
     send(there, list.data(), list.size_bytes());
     return there;
   }
+  template <class T>
+  [[nodiscard]] const T* sent(const std::vector<T>& list) const {
+    return sent(std::span<const T>(list));
+  }
   /// Waits for it.
   template <class T>
   [[nodiscard]] T fetched(const T* from) const {

@@ -33,11 +33,8 @@ class GpuOperations final : public Cpu, private Dispatcher {
     auto* count = scratch().take<uint32_t>(1);
     send(count, &labels.count, sizeof labels.count);
     const GraphView view = viewFor(labels);
-    const Picture::Planes planes = labels.picture->readOn(device());
-    buildGraph({labels.ids.readOn(device()),
-                count,
-                {{planes.red, planes.green, planes.blue}, labels.picture->isGrey() ? 1 : 3}},
-               connectivity, view, stream());
+    buildGraph({labels.ids.readOn(device()), count, on().readRed(*labels.picture)}, connectivity,
+               view, stream());
     // Meanwhile.
     listRuns(labels, graph.runs);
     fetchList(view.regions, labels.count, graph.regions);

@@ -78,9 +78,8 @@ class GpuOperations final : public Cpu, private Dispatcher {
     const auto count = static_cast<int>(regions_.size());
     const std::span<const MatchedPart> parts = frames.blocks.parts();
     auto* still = scratch().take<uint8_t>(count);
-    const MatchedRegions regions{sent(parts), sent(std::span<const uint32_t>(starts_)), count,
-                                 still};
-    const GradientProducts* gradients = sent(std::span<const GradientProducts>(gradients_));
+    const MatchedRegions regions{sent(parts), sent(starts_), count, still};
+    const GradientProducts* gradients = sent(gradients_);
     const ImageView<const uint8_t> luma = frames.current.readOn(device()).luma;
     const ImageView<const uint8_t> before = frames.previous.readOn(device()).luma;
     findStill(regions, luma, before, still, stream());
@@ -103,10 +102,9 @@ class GpuOperations final : public Cpu, private Dispatcher {
                       std::span<const RegionMotion> motion) {
     listRefined(graph, frames.blocks, motion);
     const auto count = static_cast<int>(motion.size());
-    const RefinedRegions regions{
-        {sent(frames.blocks.parts()), sent(std::span<const uint32_t>(starts_)), count},
-        sent(std::span<const rg::motion::RefinedRegion>(refined_)),
-        scratch().take<FitState>(count)};
+    const RefinedRegions regions{{sent(frames.blocks.parts()), sent(starts_), count},
+                                 sent(refined_),
+                                 scratch().take<FitState>(count)};
     const SeenPlanes planes = planesOf(frames);
     const SeenMotions seen{scratch().take<rg::motion::SeenMotion>(count),
                            scratch().take<int32_t>(count),
@@ -149,8 +147,7 @@ class GpuOperations final : public Cpu, private Dispatcher {
   void matchOnDevice(const rg::graph::Graph& graph, const Picture& previous,
                      const ShiftRange& range) {
     list_.build(graph.runs.list, graph.runs.starts);
-    const LiteralRegions regions{sent(std::span<const Run>(graph.runs.list)),
-                                 sent(std::span<const LiteralChunk>(list_.chunks)), list_};
+    const LiteralRegions regions{sent(graph.runs.list), sent(list_.chunks), list_};
     const PaddedView before = padded(previous.readOn(device()).luma, range.reach);
     const auto count = static_cast<uint32_t>(regions.count());
     const int most = mostRegions(range, regions.count());

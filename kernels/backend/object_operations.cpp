@@ -95,8 +95,7 @@ class GpuOperations final : public Cpu, private Dispatcher {
     listRegions(in, s);
     const rg::graph::Graph& graph = *in.motion.graph;
     const auto count = static_cast<int>(regions_.size());
-    const RegionList regions{sent(std::span<const ComparedRegion>(regions_)), count, s.everyRow,
-                             s.hidesAny};
+    const RegionList regions{sent(regions_), count, s.everyRow, s.hidesAny};
     const ComparedPictures pictures{graph.labels->ids.readOn(device()),
                                     graph.picture->readOn(device()).luma,
                                     s.expected.readOn(device()), s.shown.readOn(device()).data};
@@ -121,7 +120,7 @@ class GpuOperations final : public Cpu, private Dispatcher {
     const KnownView from{graph.labels->ids.readOn(device()),
                          graph.picture->readOn(device()).luma,
                          known.previous.readOn(device()).luma,
-                         sent(std::span<const rg::motion::RegionMotion>(known.motion.regions)),
+                         sent(known.motion.regions),
                          static_cast<int>(count),
                          known.gains.readOn(device()),
                          known.left};
@@ -138,14 +137,12 @@ class GpuOperations final : public Cpu, private Dispatcher {
                           const OwnedCells& cells, const ObjectPixels& pixels) {
     listOwners(cells);
     const auto count = static_cast<uint32_t>(pixels.sums.size());
-    const Picture::Planes planes = graph.picture->readOn(device());
-    const OwnedPixels owned{
-        graph.labels->ids.readOn(device()),
-        sent(isBackground),
-        sent(std::span<const uint16_t>(owners_)),
-        cells.grid.stepPx,
-        cells.grid.grid.width,
-        {{planes.red, planes.green, planes.blue}, graph.picture->isGrey() ? 1 : 3}};
+    const OwnedPixels owned{graph.labels->ids.readOn(device()),
+                            sent(isBackground),
+                            sent(owners_),
+                            cells.grid.stepPx,
+                            cells.grid.grid.width,
+                            on().readRed(*graph.picture)};
     const ObjectPixelsView out{pixels.slots.writeOn(device()), scratch().take<ObjectSums>(count),
                                scratch().take<uint32_t>(count), static_cast<int>(count)};
     objects::findObjectPixels(owned, out, stream());

@@ -161,8 +161,8 @@ class PaperOnDevice final : public Cpu, private Dispatcher {
     const ImageView<uint8_t> out = on().write(filled);
     clear(out);
     if (chosen_.empty()) return;
-    const LineBoxes boxes{sent(std::span<const LineBox>(lines_.boxes)),
-                          sent(std::span<const LineStrip>(lines_.strips)),
+    const LineBoxes boxes{sent(lines_.boxes),
+                          sent(lines_.strips),
                           static_cast<int>(lines_.strips.size()),
                           scratch().take<uint32_t>(lines_.reaches),
                           lines_.reaches,

@@ -93,11 +93,6 @@ class GpuOperations final : public Cpu, private Dispatcher {
   [[nodiscard]] ImageView<const uint8_t> read(Scoped scope) const {
     return scope != nullptr ? scope->readOn(device()) : ImageView<const uint8_t>{};
   }
-  /// Red first, as this room has them.
-  [[nodiscard]] Planes read(const Picture& picture) const {
-    const Picture::Planes planes = picture.readOn(device());
-    return {{planes.red, planes.green, planes.blue}, picture.isGrey() ? 1 : 3};
-  }
 
   void closeGapsOnDevice(const Picture& picture, const Image<uint8_t>& mask,
                          Image<uint8_t>& scope) {
@@ -126,7 +121,7 @@ class GpuOperations final : public Cpu, private Dispatcher {
 
   void classifyHuesOnDevice(const Picture& picture, const HueRules& rules, Scoped scope,
                             Image<uint8_t>& classes) {
-    const Planes planes = read(picture);
+    const Planes planes = on().readRed(picture);
     const HueBand peak = fetched(findBand(planes));
     segmentation::classifyHues(planes, bandsOf(rules, peak), read(scope),
                                scratchPlane<uint8_t>(planes.size()), classes.writeOn(device()),
@@ -143,7 +138,7 @@ class GpuOperations final : public Cpu, private Dispatcher {
   void divideOnDevice(const Picture& picture, Scoped scope, const GrowthLimits& limits,
                       uint32_t* count, Image<uint16_t>& ids) {
     const DivisionPlan plan = planOf(picture.size(), limits);
-    const Planes planes = read(picture);
+    const Planes planes = on().readRed(picture);
     const HueBand* band = findBand(planes);
     const GrownCells pixels{scratchPlanes(planes.size(), planes.channels), {}, {}, read(scope), 1};
     smoothColours(planes, pixels.colours, stream());
