@@ -6,11 +6,11 @@
 namespace rg::gpu::background {
 namespace {
 
-__global__ void keepPixelsAbove(int threshold, ImageView<uint8_t> plane) {
+__global__ void keepPixelsAbove(const int* threshold, ImageView<uint8_t> plane) {
   const Point p = pixelOfThread();
   if (!isWithin(p, plane.size)) return;
   uint8_t& level = plane.at(p.x, p.y);
-  level = level > threshold ? 255 : 0;
+  level = level > *threshold ? 255 : 0;
 }
 
 __global__ void keepPixelsOfBoth(ImageView<const uint8_t> a, ImageView<const uint8_t> b,
@@ -92,7 +92,7 @@ Launch over(const char* name, Size size, double bytes) {
 
 }  // namespace
 
-void keepAbove(int threshold, ImageView<uint8_t> plane, Stream stream) {
+void keepAbove(const int* threshold, ImageView<uint8_t> plane, Stream stream) {
   start(over("keepAbove", plane.size, 2), stream, keepPixelsAbove, threshold, plane);
 }
 

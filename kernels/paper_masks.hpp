@@ -12,7 +12,7 @@
 
 namespace rg::gpu::background {
 
-void keepAbove(int threshold, ImageView<uint8_t> plane, Stream stream);
+void keepAbove(const int* threshold, ImageView<uint8_t> plane, Stream stream);
 void keepBoth(ImageView<const uint8_t> a, ImageView<const uint8_t> b, ImageView<uint8_t> out,
               Stream stream);
 

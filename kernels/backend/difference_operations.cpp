@@ -145,7 +145,7 @@ class DifferenceOnDevice final : public Cpu, private Dispatcher {
                                  frame.scanned};
     auto* cells = scratch().take<CellCounts>(search.grid().area());
     searchCells(searched, search.pixels().changeOn(device()), cells, stream());
-    fetchList(cells, static_cast<uint32_t>(search.grid().area()), cells_);
+    fetchLists(FetchedList<CellCounts>{cells, static_cast<uint32_t>(search.grid().area()), cells_});
   }
 
   void findGhostsOnDevice(const Picture& now, const SceneMemory& memory, const CellSearch& search,
@@ -158,7 +158,7 @@ class DifferenceOnDevice final : public Cpu, private Dispatcher {
                                                memory.images().known.readOn(device())};
     auto* sums = scratch().take<OutlineSums>(count);
     sumOutlines(cells, search.pixels().readOn(device()), planes, sums, stream());
-    fetchList(sums, static_cast<uint32_t>(count), outlines_);
+    fetchLists(FetchedList<OutlineSums>{sums, static_cast<uint32_t>(count), outlines_});
     isGhost.clear();
     for (const OutlineSums& outline : outlines_) isGhost.push_back(outline.isGhost());
   }

@@ -60,7 +60,7 @@ void Dispatcher::send(void* to, const void* from, size_t bytes) const {
 }
 
 void Dispatcher::fetch(void* to, const void* from, size_t bytes) const {
-  device_.lane()->staging().download(to, from, bytes);
+  device_.lane()->staging().download({{to, from, bytes}});
 }
 
 }  // namespace rg::gpu

@@ -18,6 +18,22 @@
 
 namespace rg::gpu {
 
+/// A list on the device, and where it comes to.
+template <class T>
+struct FetchedList {
+  const T* from;
+  uint32_t count;
+  std::vector<T>& to;
+};
+/// One whose length the device knows only: seldom more than `expected`, for which there is memory.
+template <class T>
+struct CountedList {
+  const uint32_t* count;
+  const T* from;
+  uint32_t expected;
+  std::vector<T>& to;
+};
+
 class Dispatcher {
  public:
   explicit Dispatcher(GpuDevice& device) : device_(device), access_(device) {}
@@ -105,13 +121,31 @@ class Dispatcher {
     fetch(&value, from, sizeof value);
     return value;
   }
-  template <class T>
-  void fetchList(const T* from, uint32_t count, std::vector<T>& to) const {
-    to.resize(count);
-    if (count > 0) fetch(to.data(), from, count * sizeof(T));
+  /// Waits for all of them together.
+  template <class... T>
+  void fetchLists(const FetchedList<T>&... lists) const {
+    (lists.to.resize(lists.count), ...);
+    staging().download(
+        {Staging::Download{lists.to.data(), lists.from, lists.count * sizeof(T)}...});
+  }
+  /// Waits for all of them together, and again where the first is longer than expected.
+  template <class T, class... Others>
+  void fetchCounted(const CountedList<T>& list, const FetchedList<Others>&... others) const {
+    uint32_t count = 0;
+    list.to.resize(list.expected);
+    (others.to.resize(others.count), ...);
+    staging().download(
+        {{&count, list.count, sizeof count},
+         {list.to.data(), list.from, list.expected * sizeof(T)},
+         Staging::Download{others.to.data(), others.from, others.count * sizeof(Others)}...});
+    list.to.resize(count);
+    if (count > list.expected)
+      fetch(list.to.data() + list.expected, list.from + list.expected,
+            (count - list.expected) * sizeof(T));
   }
 
  private:
+  [[nodiscard]] Staging& staging() const { return device_.lane()->staging(); }
   void fetch(void* to, const void* from, size_t bytes) const;
 
   template <class Call>

@@ -23,7 +23,7 @@ class GpuMemory final : public DeviceMemory {
   }
   void download(void* to, size_t bytes) override {
     lane_->enter();
-    lane_->staging().download(to, memory_, bytes);
+    lane_->staging().download({{to, memory_, bytes}});
   }
 
  private:

@@ -3,6 +3,7 @@
 #include "kernels/primitives.hpp"
 #include "kernels/region_graph.hpp"
 
+#include <algorithm>
 #include <cstdint>
 
 namespace rg::gpu::graph {
@@ -37,8 +38,12 @@ class GpuOperations final : public Cpu, private Dispatcher {
                view, stream());
     // Meanwhile.
     listRuns(labels, graph.runs);
-    fetchList(view.regions, labels.count, graph.regions);
-    fetchList(view.arcs, fetched(view.arcCount), graph.arcs);
+    // As a plane has them.
+    const uint64_t expected =
+        std::min(mostArcs(labels.size.area(), labels.count), uint64_t{3} * labels.count);
+    fetchCounted(
+        CountedList<Arc>{view.arcCount, view.arcs, static_cast<uint32_t>(expected), graph.arcs},
+        FetchedList<Region>{view.regions, labels.count, graph.regions});
   }
 
   [[nodiscard]] GraphView viewFor(const segmentation::Labels& labels) const {

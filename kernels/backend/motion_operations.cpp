@@ -89,8 +89,8 @@ class GpuOperations final : public Cpu, private Dispatcher {
                                   sumsFor(range, count), found, stream());
     auto* motion = scratch().take<RegionMotion>(count);
     estimateMotion(regions, found, gradients, motion, stream());
-    fetchList(still, static_cast<uint32_t>(count), stills_);
-    fetchList(motion, static_cast<uint32_t>(count), motions_);
+    fetchLists(FetchedList<uint8_t>{still, static_cast<uint32_t>(count), stills_},
+               FetchedList<RegionMotion>{motion, static_cast<uint32_t>(count), motions_});
     for (size_t i = 0; i < regions_.size(); ++i) {
       out.isStill[regions_[i]] = stills_[i];
       out.take(regions_[i], motions_[i]);
@@ -121,7 +121,7 @@ class GpuOperations final : public Cpu, private Dispatcher {
     auto* refined = scratch().take<RegionMotion>(count);
     send(refined, motion.data(), motion.size_bytes());
     fitTogether(regions, planes, seen.priors, refined, stream());
-    fetchList(refined, static_cast<uint32_t>(count), motions_);
+    fetchLists(FetchedList<RegionMotion>{refined, static_cast<uint32_t>(count), motions_});
   }
   /// All of them.
   void listRefined(const rg::graph::Graph& graph, const MatchedBlocks& blocks,
@@ -156,7 +156,7 @@ class GpuOperations final : public Cpu, private Dispatcher {
     auto* motion = scratch().take<RegionMotion>(count);
     rg::gpu::motion::matchAllPixels(regions, graph.picture->readOn(device()).luma, before, range,
                                     sums, motion, stream());
-    fetchList(motion, count, motions_);
+    fetchLists(FetchedList<RegionMotion>{motion, count, motions_});
   }
 
   [[nodiscard]] PaddedView roomFor(Size size, int reach) const {

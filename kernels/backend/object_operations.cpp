@@ -104,7 +104,8 @@ class GpuOperations final : public Cpu, private Dispatcher {
         scratch().take<OwnMotionScratch::Sums>(int64_t{count} * OwnMotionScratch::kBands),
         scratch().take<OwnMotionScratch::Trial>(count)};
     objects::compareRegions(pictures, regions, out, stream());
-    fetchList(out.trials, static_cast<uint32_t>(count), trials_);
+    fetchLists(
+        FetchedList<OwnMotionScratch::Trial>{out.trials, static_cast<uint32_t>(count), trials_});
   }
   void listRegions(const ComparedRegions& in, const OwnMotionScratch& s) {
     regions_.clear();
@@ -128,8 +129,8 @@ class GpuOperations final : public Cpu, private Dispatcher {
                          scratch().take<uint32_t>(count)};
     objects::carryEvidence(from, to, stream());
     gains.readOnHost();
-    fetchList(to.sums, count, sums_);
-    fetchList(to.samples, count, samples_);
+    fetchLists(FetchedList<int64_t>{to.sums, count, sums_},
+               FetchedList<uint32_t>{to.samples, count, samples_});
   }
 
   /// Leaves in objects_ what they are.
@@ -146,7 +147,7 @@ class GpuOperations final : public Cpu, private Dispatcher {
     const ObjectPixelsView out{pixels.slots.writeOn(device()), scratch().take<ObjectSums>(count),
                                scratch().take<uint32_t>(count), static_cast<int>(count)};
     objects::findObjectPixels(owned, out, stream());
-    fetchList(out.sums, count, objects_);
+    fetchLists(FetchedList<ObjectSums>{out.sums, count, objects_});
   }
   /// Of cells that are no background.
   void listOwners(const OwnedCells& cells) {

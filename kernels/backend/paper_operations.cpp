@@ -10,7 +10,9 @@
 #include "kernels/histogram.hpp"
 #include "kernels/paper_masks.hpp"
 #include "kernels/shadow.hpp"
+#include "kernels/thresholds.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -60,16 +62,16 @@ class PaperOnDevice final : public Cpu, private Dispatcher {
   }
   void findEdges(const Picture& picture, const Picture& previous, int leastEdge,
                  Image<uint8_t>& edges) override {
-    Histogram levels{};
     const auto onDevice = [&] {
       auto* counts = scratch().take<Histogram>(1);
+      auto* threshold = scratch().take<int>(1);
       const Planes from = on().read(picture), before = on().read(previous);
       edges.resize(from.size());
       const ImageView<uint8_t> out = on().write(edges);
       differ(from, before, out, stream());
       rg::gpu::countLevels(out, counts->data(), stream());
-      levels = fetched(counts);
-      keepAbove(differenceThreshold(levels, leastEdge), out, stream());
+      rg::gpu::differenceThreshold(counts->data(), leastEdge, threshold, stream());
+      keepAbove(threshold, out, stream());
     };
     run(
         onDevice, [&] { Cpu::findEdges(picture, previous, leastEdge, edges); }, Writes{edges});
@@ -149,7 +151,10 @@ class PaperOnDevice final : public Cpu, private Dispatcher {
     packEqual(common.readOn(device()), 255, bits, stream());
     const ComponentsView found = components(size);
     findComponents(bits, true, Connectivity::Eight, found, stream());
-    fetchList(found.list, fetched(found.firstRoot + bits.words.size.area()), parts_);
+    constexpr int kFewParts = 512;
+    const auto expected = static_cast<uint32_t>(std::min<int64_t>(kFewParts, mostRuns(size)));
+    fetchCounted(CountedList<Component>{found.firstRoot + bits.words.size.area(), found.list,
+                                        expected, parts_});
     rg::background::choosePartsToFill(parts_, size, chosen_);
     lines_.clear();
     int64_t pixels = 0;

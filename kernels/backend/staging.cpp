@@ -4,6 +4,7 @@
 #include "core/base/memory/device.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstring>
 #include <string>
@@ -35,13 +36,24 @@ void Staging::upload(void* to, const void* from, size_t bytes) {
   give(block, Block::Use::Copied);
 }
 
-void Staging::download(void* to, const void* from, size_t bytes) {
-  Block& block = take(bytes);
-  runtime::download(block.memory, from, bytes, stream_);
-  runtime::record(block.copied, stream_);
-  waitFor(block);
-  std::memcpy(to, block.memory, bytes);
-  give(block, Block::Use::None);
+void Staging::download(std::initializer_list<Download> copies) {
+  std::array<Block*, kMostTogether> blocks{};
+  size_t begun = 0;
+  for (const Download& copy : copies) {
+    Block* block = copy.bytes > 0 ? &take(copy.bytes) : nullptr;
+    blocks.at(begun++) = block;
+    if (block == nullptr) continue;
+    runtime::download(block->memory, copy.from, copy.bytes, stream_);
+    runtime::record(block->copied, stream_);
+  }
+  size_t done = 0;
+  for (const Download& copy : copies) {
+    Block* block = blocks.at(done++);
+    if (block == nullptr) continue;
+    waitFor(*block);
+    std::memcpy(copy.to, block->memory, copy.bytes);
+    give(*block, Block::Use::None);
+  }
 }
 
 void Staging::expectAlive() const {

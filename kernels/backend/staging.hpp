@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <initializer_list>
 #include <mutex>
 
 namespace rg::gpu {
@@ -30,8 +31,14 @@ class Staging {
 
   /// `from` may change as soon as it returns.
   void upload(void* to, const void* from, size_t bytes);
-  /// Waits for what the stream was given before.
-  void download(void* to, const void* from, size_t bytes);
+  struct Download {
+    void* to;
+    const void* from;
+    size_t bytes;  ///< 0: nothing is done.
+  };
+  /// Waits for what the stream was given before, once for all of up to kMostTogether.
+  void download(std::initializer_list<Download> copies);
+  static constexpr size_t kMostTogether = 4;
   /// Throws where the device hangs.
   void expectAlive() const;
 

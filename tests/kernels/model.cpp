@@ -127,7 +127,8 @@ void launchPaper(const Memory& m) {
   gpu::background::keepBoth(mask, mask, mask, nullptr);
   gpu::background::differ(m.planes, m.planes, mask, nullptr);
   gpu::countLevels(mask, nullptr, nullptr);
-  gpu::background::keepAbove(12, mask, nullptr);
+  gpu::differenceThreshold(nullptr, 12, nullptr, nullptr);
+  gpu::background::keepAbove(nullptr, mask, nullptr);
   gpu::packEqual(mask, 255, m.bits, nullptr);
   gpu::findComponents(m.bits, true, Connectivity::Eight, {}, nullptr);
   gpu::background::LineList lines;

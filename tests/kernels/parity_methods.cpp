@@ -214,7 +214,7 @@ void parity_keepAbove() {
     for (const int threshold : {0, 12, 254, 255}) {
       Image<uint8_t> plane = filled(size, fill);
       Plane<uint8_t> there(std::as_const(plane).view());
-      gpu::background::keepAbove(threshold, there, nullptr);
+      gpu::background::keepAbove(&threshold, there, nullptr);
       background::keepAbove(threshold, oneThread(), plane);
       there.expect(std::as_const(plane).view(), "above");
     }

@@ -3,10 +3,13 @@
 #include "kernels/backend/staging.hpp"
 
 #include "core/base/memory/device.hpp"
+#include "kernels/backend/dispatcher.hpp"
 #include "kernels/shim/faults.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <memory>
 #include <numeric>
 #include <optional>
 #include <string>
@@ -33,7 +36,7 @@ TEST(Staging, CopiesOfAllSizesComeBack) {
         Bytes there(bytes), back(bytes);
         const Bytes sent = counted(bytes, i);
         staging.upload(there.data(), sent.data(), bytes);
-        staging.download(back.data(), there.data(), bytes);
+        staging.download({{back.data(), there.data(), bytes}});
         ASSERT_EQ(back, sent);
       }
     EXPECT_GT(shim::countHostAllocations(), before);
@@ -51,6 +54,33 @@ TEST(Staging, CopiesOnTheWayTakeLittleMemory) {
   for (int i = 0; i < 100; ++i) staging.upload(there.data(), sent.data(), sent.size());
   EXPECT_EQ(there, sent);
   EXPECT_LE(shim::countHostAllocations() - before, 8);
+}
+
+TEST(Staging, CopiesTogetherComeEachToItsPlace) {
+  shim::plan(std::nullopt);
+  Staging staging(nullptr);
+  const Bytes small = counted(3, 1), large = counted(70000, 2);
+  Bytes first(3), second(70000), none(1, 7);
+  staging.download({{first.data(), small.data(), 3},
+                    {none.data(), small.data(), 0},
+                    {second.data(), large.data(), 70000}});
+  EXPECT_EQ(first, small);
+  EXPECT_EQ(second, large);
+  EXPECT_EQ(none[0], 7);
+}
+
+TEST(Staging, AListThatIsLongerThanExpectedComesWhole) {
+  shim::plan(std::nullopt);
+  GpuDevice device("host", std::make_shared<Lane>(0));
+  const Dispatcher dispatcher(device);
+  for (const uint32_t count : {0u, 3u, 4u, 5u, 900u}) {
+    const Bytes list = counted(std::max(count, 4u), 5), other = counted(6, 9);
+    Bytes found, beside;
+    dispatcher.fetchCounted(CountedList<uint8_t>{&count, list.data(), 4, found},
+                            FetchedList<uint8_t>{other.data(), 6, beside});
+    EXPECT_EQ(found, Bytes(list.begin(), list.begin() + count));
+    EXPECT_EQ(beside, other);
+  }
 }
 
 TEST(Staging, WhatHangsIsALostDeviceAfterTenSeconds) {
@@ -84,7 +114,7 @@ TEST(Staging, ADownloadThatHangsLeavesWhatWasThere) {
     const Bytes there = counted(100, 9);
     Bytes back(100, 1);
     shim::plan(shim::Fault{0, {}, true});
-    EXPECT_THROW(staging.download(back.data(), there.data(), back.size()), DeviceError);
+    EXPECT_THROW(staging.download({{back.data(), there.data(), back.size()}}), DeviceError);
     EXPECT_EQ(back, Bytes(100, 1));
   }
   // The device may still write there.
