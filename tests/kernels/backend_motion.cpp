@@ -127,7 +127,7 @@ void failEachCall(const std::vector<std::shared_ptr<const Labels>>& labels,
 
 TEST(MotionBackend, NeitherAFailedCallNorALostDeviceChangesAnything) {
   if (!isHost()) GTEST_SKIP() << "a GPU does not fail when asked";
-  const auto labels = walk(segmentation::Scope::Frame, false, 40);
+  const auto labels = walk(segmentation::Scope::Frame, false, 16);
   for (const auto method : {motion::Method::Refined, motion::Method::Literal})
     failEachCall(labels, {method == motion::Method::Literal ? 1 : 4, true, method});
 }
