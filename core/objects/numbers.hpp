@@ -162,9 +162,6 @@ struct Numbers {
     Number bodyHeight{5, 4};     ///< and together no higher than a thing of the scene,
     Number bodyWidth{3, 2};      ///< nor wider.
     Number fragment{1, 2};       ///< Of a body, that its piece has at most.
-    Number around{1, 4};         ///< Of a missing track's size, about it, where its parts come out,
-    Number partColour{1, 32};    ///< of colours of which its look has so much,
-    Number partAlike{7, 10};     ///< for so much of them.
     Number atBorder{1, 8};       ///< Of a usual thing's area, that what comes in has at least,
     Number atBorderHeight{1, 3};
     Number outOf{1, 3};  ///< what comes out of a blob,
