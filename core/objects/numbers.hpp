@@ -106,7 +106,6 @@ struct Numbers {
     Number trustedSamples{8};  ///< Frames after which a size is known.
     Number steadySamples{12};  ///< Frames over which a speed is steady.
     Number centreSamples{31};  ///< Frames over which the middle of its pixels is learnt.
-    Number turn{48};           ///< 1/16 px off a sharp portrait: it has turned round.
     Number rigidSway{20};      ///< 1/256 of its size by which a rigid box changes; strides do more.
     Number leastHeight{3, 4};  ///< What is about of a size has so much of its height,
     Number mostHeight{5, 4};
@@ -124,8 +123,7 @@ struct Numbers {
     Number steadyShare{1, 4};   ///< that counts for the steady speed.
     Number firstGain{16}, firstSpeed{14};  ///< 1/16 of what is off, of the first two sightings,
     Number earlyGain{14}, earlySpeed{8};   ///< the next two,
-    Number turnGain{16}, turnSpeed{12};    ///< one that has turned,
-    Number wholeGain{11}, wholeSpeed{4};   ///< that is seen whole,
+    Number wholeGain{11}, wholeSpeed{4};   ///< one that is seen whole,
     Number matchGain{8}, matchSpeed{1};    ///< matched in part,
     Number weakGain{4}, weakSpeed{0};      ///< by less,
     Number soleGain{8}, soleSpeed{1};      ///< in a blob of its own,
@@ -164,9 +162,6 @@ struct Numbers {
     Number bodyHeight{5, 4};     ///< and together no higher than a thing of the scene,
     Number bodyWidth{3, 2};      ///< nor wider.
     Number fragment{1, 2};       ///< Of a body, that its piece has at most.
-    Number around{1, 4};         ///< Of a missing track's size, about it, where its parts come out,
-    Number partColour{1, 32};    ///< of colours of which its look has so much,
-    Number partAlike{7, 10};     ///< for so much of them.
     Number atBorder{1, 8};       ///< Of a usual thing's area, that what comes in has at least,
     Number atBorderHeight{1, 3};
     Number outOf{1, 3};  ///< what comes out of a blob,

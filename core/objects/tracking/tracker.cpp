@@ -19,14 +19,12 @@ struct Gains {
   Number position, speed;
 };
 
-Gains gainsOf(const Track& track, const Sighting& s, bool isFaithful, int64_t off,
-              const Numbers::Place& n) {
+Gains gainsOf(const Track& track, const Sighting& s, const Numbers::Place& n) {
   constexpr int64_t kWhole = 256;
   if (track.hits <= 2) return {n.firstGain, n.firstSpeed};
   if (track.hits <= 4) return {n.earlyGain, n.earlySpeed};
-  const bool isSharp = s.isMatched ? s.share >= n.sharpShare * kWhole : s.isWhole && isFaithful;
-  if (isSharp && off > n.turn.whole()) return {n.turnGain, n.turnSpeed};
-  if (s.isWhole || isSharp) return {n.wholeGain, n.wholeSpeed};
+  if (s.isWhole || (s.isMatched && s.share >= n.sharpShare * kWhole))
+    return {n.wholeGain, n.wholeSpeed};
   if (s.isMatched && s.share >= n.weakShare * kWhole) return {n.matchGain, n.matchSpeed};
   if (s.isMatched) return {n.weakGain, n.weakSpeed};
   return s.isSole ? Gains{n.soleGain, n.soleSpeed} : Gains{n.otherGain, n.otherSpeed};
@@ -364,8 +362,7 @@ void Tracker::correct(size_t index, int64_t stepNs) {
   const Place place = placeOf(index);
   const int64_t sinceUs = std::max<int64_t>((track.unseenNs + stepNs) / 1000, 1000);
   const int64_t offX = place.x - track.x, offFoot = place.foot - track.foot;
-  const Gains gains =
-      gainsOf(track, s, isFaithful(track), std::max(std::abs(offX), std::abs(offFoot)), n);
+  const Gains gains = gainsOf(track, s, n);
   const auto share = [](Number gain, int64_t off) { return off * gain.num / (16 * gain.den); };
   track.x = toInt(track.x + share(gains.position, offX));
   track.foot = toInt(track.foot + share(gains.position, offFoot));

@@ -139,7 +139,6 @@ struct Newcomer {
   uint16_t group = 0;   ///< Of its largest piece.
   uint64_t parent = 0;  ///< Id of the track whose blob it comes out of, 0 = none.
   bool isAtBorder = false;
-  bool isPart = false;  ///< Of a track that is missing.
   LookCounts look;
   Look appearance;
 };
@@ -248,7 +247,6 @@ class Tracker {
   void describeNewcomers(const GroupGrid& evidence);
   void giveFragments(const GroupGrid& evidence);
   void giveNewcomers(const GroupGrid& evidence);
-  [[nodiscard]] bool isPartOf(const Newcomer& newcomer, const Track& track) const;
   [[nodiscard]] bool comesApart(const GroupGrid& evidence, const Newcomer& newcomer) const;
   void dropSmall(const GroupGrid& evidence, const TrackerParams& params);
   void rejoin(const GroupGrid& evidence);

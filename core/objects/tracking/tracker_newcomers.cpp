@@ -149,25 +149,6 @@ void Tracker::describeNewcomers(const GroupGrid& e) {
   }
 }
 
-/// Whether a newcomer seems to be a part of a track that comes out from behind something: it lies
-/// where the track is expected and has its colours.
-bool Tracker::isPartOf(const Newcomer& newcomer, const Track& track) const {
-  if (!track.isConfirmed || track.unseenNs == 0 || track.sizeSamples == 0) return false;
-  const Box box = track.box();
-  const Numbers::Newcomers& n = numbers_.newcomers;
-  const auto around = static_cast<int>(n.around.of(std::min(box.width, box.height)));
-  const Box near = inflate(box, std::max(stepPx_, around));
-  if (intersect(near, newcomer.box) != newcomer.box) return false;
-  uint32_t cells = 0, alike = 0;
-  for (const auto& band : newcomer.look.bins)
-    for (int bin = 0; bin < kColourBins; ++bin) {
-      const uint32_t count = band[static_cast<size_t>(bin)];
-      cells += count;
-      alike += shareOf(track.look, bin) > n.partColour.of(kFullMatch) ? count : 0;
-    }
-  return alike >= n.partAlike * cells;
-}
-
 /// Whether a newcomer moves otherwise than the track that it comes out of.
 bool Tracker::comesApart(const GroupGrid& e, const Newcomer& newcomer) const {
   for (size_t t = 0; t < sightings_.size(); ++t)
@@ -185,7 +166,6 @@ void Tracker::dropSmall(const GroupGrid& e, const TrackerParams& params) {
     const int64_t areaPx = n.cells * cellPx;
     if (params.minAreaPx > 0) return areaPx < params.minAreaPx;
     if (areaPx < leastPx) return true;
-    if (n.isPart) return false;
     if (!scale_.isKnown()) {
       const auto parent = std::find_if(tracks_.begin(), tracks_.end(),
                                        [&](const Track& t) { return t.id == n.parent; });
@@ -208,9 +188,6 @@ void Tracker::dropSmall(const GroupGrid& e, const TrackerParams& params) {
            width < least.aloneWidth * expected.width;
   };
   // Kept in place: newcomerOf_ points here.
-  for (Newcomer& newcomer : newcomers_)
-    newcomer.isPart = std::any_of(tracks_.begin(), tracks_.end(),
-                                  [&](const Track& track) { return isPartOf(newcomer, track); });
   for (Newcomer& newcomer : newcomers_)
     if (isSmall(newcomer)) newcomer.cells = 0;
 }
@@ -238,7 +215,6 @@ void Tracker::rejoin(const GroupGrid& e) {
   for (size_t n = 0; n < newcomers_.size(); ++n) {
     if (newcomers_[n].cells == 0 || trackOfNewcomer_[n] >= 0 || tracks_.size() >= kMaxTracks)
       continue;
-    if (newcomers_[n].isPart) continue;  // Of somebody who is there already.
     trackOfNewcomer_[n] = static_cast<int>(tracks_.size());
     begin(newcomers_[n]);
   }
@@ -257,7 +233,6 @@ int64_t Tracker::rejoinCost(const GroupGrid& e, const Track& track, const Newcom
   if (far > gate) return kForbidden;
   if (isFaithful(track) && int64_t{newcomer.box.width} * kUnit < n.part * track.size.width)
     return recognise(e, track, newcomer) ? 1000 * int64_t{far} / gate : kForbidden;
-  if (newcomer.isPart && isPartOf(newcomer, track)) return 1000 * int64_t{far} / gate;
   const int64_t height = int64_t{newcomer.box.height} * kUnit;
   if (!newcomer.isAtBorder &&
       (height < n.leastHeight * track.size.height || height > n.mostHeight * track.size.height))
