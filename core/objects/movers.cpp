@@ -2,19 +2,29 @@
 #include "core/objects/movers.hpp"
 
 namespace rg::objects {
+namespace {
+
+bool isFollowed(const Track& track, const Numbers::Parallax& numbers) {
+  return track.seenNs >= numbers.followed.whole();
+}
+
+}  // namespace
 
 void Movers::reset() {
   past_.clear();
   evidence_.reset();
+  parallax_.reset();
 }
 
 void Movers::compareWith(const PastFrame& past, const motion::Motion& motion,
                          const MoverRules& rules, Operations& operations) {
-  steps_.clear();
+  expected_.clear();
   for (const Track& track : rules.tracks)
-    steps_.push_back(Tracker::expectedShift(track, past.camera, past.ageNs));
+    expected_.push_back({Tracker::expectedShift(track, past.camera, past.ageNs),
+                         isFollowed(track, rules.parallax)});
   findOwnMotion(motion, {*past.picture, past.camera, past.ageNs, rules.stepNs},
-                {rules.arcs, rules.weights, rules.expected, steps_}, operations, scratch_, own_);
+                {rules.arcs, rules.weights, rules.expected, expected_, &parallax_}, operations,
+                scratch_, own_);
 }
 
 void Movers::find(const motion::Motion& motion, const MoverRules& rules, Operations& operations) {
@@ -27,10 +37,15 @@ void Movers::find(const motion::Motion& motion, const MoverRules& rules, Operati
   const std::shared_ptr<const Picture>& now = motion.graph->picture;
   if (previous == nullptr || !now || previous->picture->size() != now->size()) {
     past_.clear();
+    parallax_.reset();
     evidence_.carry(motion, nullptr, rules.stepNs, operations);
     return;
   }
   evidence_.carry(motion, previous->picture.get(), rules.stepNs, operations);
+  isKnown_.clear();
+  for (const TrackIndex track : rules.expected)
+    isKnown_.push_back(track && isFollowed(rules.tracks[track.index()], rules.parallax));
+  parallax_.look(motion, isKnown_, rules.stepNs, rules.parallax);
   compareWith(*previous, motion, rules, operations);
   if (older == previous) return;
   sinceLast_ = own_;

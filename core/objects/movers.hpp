@@ -9,6 +9,7 @@
 
 #include "core/objects/merge/motion_evidence.hpp"
 #include "core/objects/merge/own_motion.hpp"
+#include "core/objects/merge/parallax.hpp"
 #include "core/objects/merge/past_frames.hpp"
 #include "core/objects/tracking/tracker.hpp"
 
@@ -26,6 +27,7 @@ struct MoverRules {
   std::span<const Track> tracks;
   int64_t stepNs = 0;      ///< Since the previous frame.
   int64_t perPixelNs = 0;  ///< In which a slow thing moves by a pixel.
+  Numbers::Parallax parallax;
 };
 
 class Movers {
@@ -48,11 +50,13 @@ class Movers {
                    Operations& operations);
 
   PastFrames past_;
+  Parallax parallax_;
+  std::vector<uint8_t> isKnown_;  ///< Of each region, by an object that has been followed.
   MotionEvidence evidence_;
   OwnMotionScratch scratch_;
   std::vector<OwnMotion> own_;
-  std::vector<OwnMotion> sinceLast_;  ///< What the previous frame alone shows.
-  std::vector<Point> steps_;          ///< Of each track since the frame that is compared, pixels.
+  std::vector<OwnMotion> sinceLast_;      ///< What the previous frame alone shows.
+  std::vector<ExpectedMotion> expected_;  ///< Of each track, since the frame that is compared.
 };
 
 }  // namespace rg::objects

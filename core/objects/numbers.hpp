@@ -53,6 +53,15 @@ struct Numbers {
                               ///< to five times the root of its area, which this has to outweigh.
   } energy;
 
+  /// What stands still before the plane of the camera's motion (core/objects/merge/parallax.hpp).
+  struct Parallax {
+    Number leastSlide{3, 4};    ///< Pixels beyond the plane: less may be the camera's error.
+    Number offLine{1, 2};       ///< Pixels that a region's vector may be off across,
+    Number offLineShare{1, 6};  ///< or the same as a share of its slide.
+    Number leastShare{1, 200};  ///< Of what can be relied on, beside the heaviest piece.
+    Number followed = ms(600);  ///< What has been seen for so long was there before.
+  } parallax;
+
   /// How regions have moved so far, and groups in which two things move apart.
   struct Layers {
     Number trendFrames{8};    ///< That a trend remembers.
@@ -136,7 +145,7 @@ struct Numbers {
     Number knownFrames{4};        ///< From which one can be looked for.
     Number faithful{160, 256};    ///< So much of a thing agrees that keeps its shape.
     Number leastAgreeing{8};      ///< Samples.
-    Number leastShare{1, 16};     ///< Of a portrait, that has to agree,
+    Number leastShare{1, 200};    ///< Of a portrait, that has to agree,
     Number rigidShare{1, 32};     ///< and of what keeps its shape.
     Number agreeing{1, 2};        ///< Of what is seen of it.
     Number about{1, 8};           ///< By so much of its size a clear blob may be off.

@@ -151,8 +151,9 @@ void ObjectStage::mergeRegions(const Input& in, const Params& params, int64_t st
   weighArcs(shown, expected_, weights, objects.arcs);
   startGroups();
   if (!isStill) {
-    const MoverRules rules{objects.arcs,      weights, expected_,
-                           tracker_.tracks(), stepNs,  nsPerPixel(params, graph.size)};
+    const MoverRules rules{objects.arcs,           weights, expected_,
+                           tracker_.tracks(),      stepNs,  nsPerPixel(params, graph.size),
+                           params.numbers.parallax};
     movers_.find(motion, rules, *operations_);
     tieToGround(graph, weights, objects.ground);
     movers_.remember(motion, rules, *operations_);

@@ -9,13 +9,7 @@
 namespace rg::objects {
 namespace {
 
-constexpr int64_t kMost = kGainUnit;      // Of a pixel's gain.
-constexpr int64_t kHalfNs = 100'000'000;  // That leave half of it.
-
-/// What is left of `unit` after so long.
-int fade(int unit, int64_t ns) {
-  return static_cast<int>(unit * kHalfNs / (kHalfNs + std::min(ns, 1000 * kHalfNs)));
-}
+constexpr int64_t kMost = kGainUnit;  // Of a pixel's gain.
 
 /// What is asked of each sample, found once.
 struct KnownPixels {
@@ -103,7 +97,7 @@ void MotionEvidence::carry(const motion::Motion& motion, const Picture* previous
     return shown_.fill(0);
   sums_.assign(count, 0);
   samples_.assign(count, 0);
-  operations.carryEvidence({motion, *previous, known_, fade(256, stepNs)},
+  operations.carryEvidence({motion, *previous, known_, leftOfEvidence(stepNs)},
                            {shown_, sums_, samples_});
   for (size_t i = 0; i < count; ++i)
     if (sums_[i] > 0) {

@@ -17,6 +17,7 @@
 #include "core/motion/motion.hpp"
 #include "core/objects/merge/own_motion.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -24,6 +25,13 @@
 namespace rg::objects {
 
 inline constexpr int kEvidenceStep = 4;  ///< Pixels between samples.
+inline constexpr int kAllEvidence = 256;
+
+/// What time leaves of kAllEvidence.
+[[nodiscard]] constexpr int leftOfEvidence(int64_t ns) {
+  constexpr int64_t kHalfNs = 100'000'000;  // That leave half of it.
+  return static_cast<int>(kAllEvidence * kHalfNs / (kHalfNs + std::min(ns, 1000 * kHalfNs)));
+}
 
 [[nodiscard]] constexpr Size evidenceGridOf(Size frame) {
   return {(frame.width + kEvidenceStep - 1) / kEvidenceStep,
@@ -47,9 +55,9 @@ inline constexpr int kEvidenceStep = 4;  ///< Pixels between samples.
   };
   return {nearest(pixel.x, grid.width), nearest(pixel.y, grid.height)};
 }
-/// left: what time leaves of 256.
+/// left: of kAllEvidence.
 [[nodiscard]] constexpr int16_t fadedGain(int gain, int left) {
-  return static_cast<int16_t>(gain * left / 256);
+  return static_cast<int16_t>(gain * left / kAllEvidence);
 }
 /// Of a pixel, 0 … kGainUnit.
 [[nodiscard]] constexpr int16_t gainWith(int gain, int more) {
@@ -62,7 +70,7 @@ struct KnownEvidence {
   const motion::Motion& motion;
   const Picture& previous;
   const Image<int16_t>& gains;  ///< By samples.
-  int left;                     ///< Of 256.
+  int left;                     ///< Of kAllEvidence.
 };
 /// What of it this frame's regions show.
 struct CarriedEvidence {

@@ -132,15 +132,27 @@ void judge(const Inputs& in, int64_t deviations, OwnMotionScratch& s, std::vecto
   }
 }
 
+/// Whether what moves so beyond the camera, in 1/16 px since the earlier frame, may stand still.
+bool isParallax(const Inputs& in, size_t region, Point beyond) {
+  if (in.rules.parallax == nullptr) return false;
+  const TrackIndex track = expectedAs(in.rules, region);
+  if (track && in.rules.tracks[track.index()].isFollowed) return false;
+  const Point plane = ComparedFrame::at(in.compared.camera, in.motion, region);
+  return in.rules.parallax->explains(beyond, plane);
+}
+
 /// The shift that a region's own vector suggests, or what it is expected to be.
 Point ownShift(const Inputs& in, size_t region) {
-  if (in.compared.showsMotion(in.motion, region))
-    return inPixels(in.compared.beyondCamera(in.motion, region));
+  const Point beyond = in.compared.beyondCamera(in.motion, region);
+  if (in.compared.showsMotion(in.motion, region) && !isParallax(in, region, beyond))
+    return inPixels(beyond);
   const TrackIndex track = expectedAs(in.rules, region);
   if (!track) return {};
-  const Point step = in.rules.steps[track.index()];
+  const Point step = in.rules.tracks[track.index()].step;
   const Point by = inPixels(ComparedFrame::at(in.compared.camera, in.motion, region));
-  return {step.x - by.x, step.y - by.y};
+  const Point further{step.x - by.x, step.y - by.y};
+  constexpr int kUnit = motion::kMotionUnit;
+  return isParallax(in, region, {further.x * kUnit, further.y * kUnit}) ? Point{} : further;
 }
 
 }  // namespace

@@ -8,6 +8,9 @@
 // then, where neither makes it move, the shift of the moving neighbour with the longest border.
 // Which neighbours move is a guess that the energy itself makes, region by region.
 //
+// Nor is tried what the camera's passing by explains (core/objects/merge/parallax.hpp), but of an
+// object that has been followed before.
+//
 // A quarter of a region does not speak for all of it: of eight bands that lie along the shift the
 // two neighbours that gain most are left out, so that plain ground does not go with a mover of its
 // colour that was cut together with it. What really moves gains along its whole leading edge.
@@ -24,6 +27,7 @@
 #include "core/motion/motion.hpp"
 #include "core/objects/merge/compared_frame.hpp"
 #include "core/objects/merge/mrf_merge.hpp"
+#include "core/objects/merge/parallax.hpp"
 
 #include <array>
 #include <cstdint>
@@ -75,13 +79,19 @@ struct OwnMotionScratch {
   int rounds = 0;                    ///< In which it compared any.
 };
 
+/// Of a track.
+struct ExpectedMotion {
+  Point step;               ///< Since the earlier frame, pixels, with the camera's.
+  bool isFollowed = false;  ///< For long: what it does is no parallax.
+};
+
 struct OwnMotionRules {
   std::span<const ArcEnergy> arcs;  ///< Of the graph, as weighArcs() made them.
   MergeWeights weights;
   std::span<const TrackIndex> expected;  ///< Of each region the track that it is expected to be, or
                                          ///< none. May be empty.
-  std::span<const Point> steps;          ///< Of each track since the earlier frame, pixels, with
-                                         ///< the camera's.
+  std::span<const ExpectedMotion> tracks;
+  const Parallax* parallax = nullptr;  ///< None: all that stands still is of one plane.
 };
 
 /// Nothing was tried of any region yet.

@@ -57,7 +57,7 @@ std::vector<int64_t> gainsAfter(int frames, int64_t stepNs, const Executor& exec
     std::vector<objects::ArcEnergy> arcs;
     objects::weighArcs(motion, {}, {}, arcs);
     const std::vector<objects::TrackIndex> expected(motion.regions.size());
-    const objects::MoverRules rules{arcs, {}, expected, {}, stepNs, kPerPixelNs};
+    const objects::MoverRules rules{arcs, {}, expected, {}, stepNs, kPerPixelNs, {}};
     movers.find(motion, rules, operations);
     movers.remember(motion, rules, operations);
   }
@@ -86,7 +86,7 @@ TEST(Movers, AfterFramesOfAnotherSizeNothingIsCompared) {
   const auto find = [&](const motion::Motion& motion) {
     std::vector<objects::ArcEnergy> arcs;
     objects::weighArcs(motion, {}, {}, arcs);
-    const objects::MoverRules rules{arcs, {}, expected, {}, kPerPixelNs / 6, kPerPixelNs};
+    const objects::MoverRules rules{arcs, {}, expected, {}, kPerPixelNs / 6, kPerPixelNs, {}};
     movers.find(motion, rules, operations);
     movers.remember(motion, rules, operations);
   };

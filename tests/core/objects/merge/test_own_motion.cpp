@@ -71,27 +71,24 @@ struct Found {
 };
 
 Found searchFor(const Picture& previous, std::shared_ptr<const segmentation::Labels> labels,
-                const std::vector<Point>& vectors,
-                const std::vector<objects::TrackIndex>& expected = {},
-                const std::vector<Point>& steps = {}) {
+                const std::vector<Point>& vectors, objects::OwnMotionRules rules = {}) {
   const motion::Motion motion = motionOf(std::move(labels), vectors);
   objects::OwnMotionScratch scratch;
   std::vector<objects::OwnMotion> own;
   objects::clearOwnMotion(motion.regions.size(), scratch, own);
   const std::vector<objects::ArcEnergy> arcs = energiesOf(motion);
+  rules.arcs = arcs;
   const Executor executor(1);
   objects::Operations operations(executor);
-  objects::findOwnMotion(motion, since(previous, motion), {arcs, {}, expected, steps}, operations,
-                         scratch, own);
+  objects::findOwnMotion(motion, since(previous, motion), rules, operations, scratch, own);
   return {scratch.moves, scratch.rounds};
 }
 
 std::vector<uint8_t> moversOf(const Picture& previous,
                               std::shared_ptr<const segmentation::Labels> labels,
                               const std::vector<Point>& vectors,
-                              const std::vector<objects::TrackIndex>& expected = {},
-                              const std::vector<Point>& steps = {}) {
-  return searchFor(previous, std::move(labels), vectors, expected, steps).moves;
+                              const objects::OwnMotionRules& rules = {}) {
+  return searchFor(previous, std::move(labels), vectors, rules).moves;
 }
 
 /// Of the ground on the left, the ground on the right, and the square.
@@ -160,9 +157,40 @@ TEST(OwnMotion, WhatIsExpectedToMoveIsTriedWithoutAVectorOfItsOwn) {
     return Box{o.x, o.y, 16, 16}.contains({x, y}) ? 2 : 1;
   });
   EXPECT_THAT(moversOf(*at(0), labels, {kCamera, kCamera}), ElementsAre(0, 0));
-  EXPECT_THAT(
-      moversOf(*at(0), labels, {kCamera, kCamera}, {{}, objects::TrackIndex::ofIndex(0)}, {{9, 1}}),
-      ElementsAre(0, 1));
+  const objects::TrackIndex expected[] = {{}, objects::TrackIndex::ofIndex(0)};
+  const objects::ExpectedMotion tracks[] = {{{9, 1}}};
+  objects::OwnMotionRules rules;
+  rules.expected = expected;
+  rules.tracks = tracks;
+  EXPECT_THAT(moversOf(*at(0), labels, {kCamera, kCamera}, rules), ElementsAre(0, 1));
+}
+
+/// The square goes along with the ground, three times as far, and so does enough else.
+TEST(OwnMotion, WhatParallaxExplainsIsNotTriedButOfWhatWasFollowed) {
+  const TwoFrames frames({3 * kCamera.x, 3 * kCamera.y});
+  const auto at = [&](int time) {
+    return scenes::paintGrey(kSize, [&](int x, int y) { return frames.levelAt(x, y, time); });
+  };
+  const Point o = frames.squareAt(1);
+  const auto labels = scenes::label(at(1), 2, [&](int x, int y) {
+    return Box{o.x, o.y, 16, 16}.contains({x, y}) ? 2 : 1;
+  });
+  const Point step{3 * kCamera.x, 3 * kCamera.y};
+  const auto trees = scenes::label(at(1), 4, [](int x, int) { return 1 + x / 24; });
+  objects::Parallax parallax;
+  parallax.look(motionOf(trees, {step, kCamera, step, kCamera}), {}, 40'000'000, {});
+  const objects::TrackIndex expected[] = {{}, objects::TrackIndex::ofIndex(0)};
+  const objects::ExpectedMotion known[] = {{step, true}}, fresh[] = {{step, false}};
+  objects::OwnMotionRules rules;
+  EXPECT_THAT(moversOf(*at(0), labels, {kCamera, step}, rules), ElementsAre(0, 1));
+  rules.parallax = &parallax;
+  EXPECT_THAT(moversOf(*at(0), labels, {kCamera, step}, rules), ElementsAre(0, 0));
+  rules.expected = expected;
+  rules.tracks = fresh;
+  EXPECT_THAT(moversOf(*at(0), labels, {kCamera, step}, rules), ElementsAre(0, 0));
+  rules.tracks = known;
+  EXPECT_THAT(moversOf(*at(0), labels, {kCamera, step}, rules), ElementsAre(0, 1));
+  EXPECT_THAT(moversOf(*at(0), labels, {kCamera, kCamera}, rules), ElementsAre(0, 1));
 }
 
 TEST(OwnMotion, GroundDoesNotGoWithAnEndOfItThatMoves) {
