@@ -358,6 +358,7 @@ Result<std::shared_ptr<const Objects>> ObjectStage::process(Input in, const Para
       static_cast<int64_t>(std::clamp(params.maxLostTimeS, 0.0, 3600.0) * 1e9),
       static_cast<uint32_t>(std::lround(std::clamp(params.minObjectArea, 0.0, 100.0) / 100 *
                                         static_cast<double>(motion->size.area()))),
+      static_cast<int32_t>(std::lround(std::clamp(params.appearanceWeight, 0.0, 1000.0) * 256)),
       params.numbers};
   const int64_t stepNs = stepTo(time);
   const std::shared_ptr<const graph::Graph> graph = motion->graph;

@@ -50,6 +50,7 @@ void Tracker::begin(const GroupGrid& e, int64_t stepNs) {
 void Tracker::update(const GroupGrid& evidence, std::span<const Group> groups, int64_t stepNs,
                      const TrackerParams& params) {
   state_.numbers = params.numbers;
+  state_.appearance = params.appearance;
   life_.events().clear();
   begin(evidence, stepNs);
   fit_.find(evidence, stepNs, state_);

@@ -27,7 +27,8 @@ namespace rg::objects {
 
 struct TrackerParams {
   int64_t maxLostNs = 2'000'000'000;
-  uint32_t minAreaPx = 0;  ///< 0 = learnt from the scene.
+  uint32_t minAreaPx = 0;    ///< 0 = learnt from the scene.
+  int32_t appearance = 256;  ///< As in TrackerState.
   Numbers numbers{};
 };
 

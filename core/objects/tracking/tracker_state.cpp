@@ -22,7 +22,7 @@ bool TrackerState::isRigid(const Track& track) const {
 
 bool TrackerState::isFaithful(const Track& track) const {
   const Numbers::Likeness& n = numbers.likeness;
-  return track.portrait.frames >= n.knownFrames.whole() &&
+  return appearance > 0 && track.portrait.frames >= n.knownFrames.whole() &&
          track.portrait.usual >= n.faithful * int64_t{256};
 }
 
@@ -72,6 +72,10 @@ Extent TrackerState::sizeOfPart(const Track& track, const Box& box) const {
   if (box.y <= 0 || box.bottom() >= frame.height)
     size.height = std::max(size.height, track.size.height);
   return size;
+}
+
+int64_t TrackerState::weighed(int similarity) const {
+  return kFullMatch - int64_t{appearance} * (kFullMatch - similarity) / 256;
 }
 
 const Track* TrackerState::find(uint64_t id) const {

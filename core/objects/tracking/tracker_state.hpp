@@ -33,7 +33,8 @@ struct Sighting {
 };
 
 struct TrackerState {
-  Numbers numbers;  ///< Of the frame.
+  Numbers numbers;           ///< Of the frame.
+  int32_t appearance = 256;  ///< Weight of looks against places, in 1/256.
   Size frame;
   int stepPx = 1;
   bool showsMovers = false;  ///< As in GroupGrid.
@@ -50,7 +51,7 @@ struct TrackerState {
   [[nodiscard]] bool isSizeKnown(const Track& track) const;
   /// Whether its box hardly changes: what is missing of it is hidden.
   [[nodiscard]] bool isRigid(const Track& track) const;
-  /// Whether its portrait tells where it is.
+  /// Whether its portrait tells where it is, where looks tell anything.
   [[nodiscard]] bool isFaithful(const Track& track) const;
   /// Whether a box of pixels is as large as a track, but for two cells or an eighth.
   [[nodiscard]] bool isAbout(const Box& box, const Track& track) const;
@@ -65,6 +66,8 @@ struct TrackerState {
   /// How large a track of unknown size is of which `box` is seen: what the frame's border cuts off
   /// was seen before, if it is about to leave.
   [[nodiscard]] Extent sizeOfPart(const Track& track, const Box& box) const;
+  /// What a similarity of looks counts, up to kFullMatch: what it lacks of that is weighed.
+  [[nodiscard]] int64_t weighed(int similarity) const;
   /// Null where there is none of that number.
   [[nodiscard]] const Track* find(uint64_t id) const;
   [[nodiscard]] Track* find(uint64_t id);

@@ -37,7 +37,7 @@ PortraitSearch searchOf(const TrackerState& state, size_t index, int64_t stepNs)
   const Point reach{within(size.width, turn.x, state.frame.width),
                     within(size.height / 2, turn.y, state.frame.height)};
   const int calm = static_cast<int>(1 + track.unseenNs / kReachNs);
-  return {track.portraitCorner(), reach, calm, turn};
+  return {track.portraitCorner(), reach, calm, turn, state.appearance};
 }
 
 }  // namespace

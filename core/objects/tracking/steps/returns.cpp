@@ -123,9 +123,9 @@ int64_t Returns::costOf(const GroupGrid& e, const Track& track, const Newcomer& 
   if (!newcomer.isAtBorder &&
       (height < n.leastHeight * track.size.height || height > n.mostHeight * track.size.height))
     return kForbidden;
-  const int alike = likeness(track, newcomer, encounters, state);
+  const int64_t alike = state.weighed(likeness(track, newcomer, encounters, state));
   if (track.isConfirmed && alike < n.alike * kFullMatch) return kForbidden;
-  return 1000 * int64_t{far} / gate + 1000 - 1000 * int64_t{alike} / kFullMatch;
+  return 1000 * int64_t{far} / gate + 1000 - 1000 * alike / kFullMatch;
 }
 
 /// Where a track's lower edge has its middle, in 1/16 px, if a newcomer is its left or right part.

@@ -82,7 +82,7 @@ void dropStrangers(const GroupGrid& e, TrackerState& state) {
       continue;
     Look now;
     learn(now, s.look);
-    if (similarity(track.look, now) >= n.stranger * kFullMatch) continue;
+    if (state.weighed(similarity(track.look, now)) >= n.stranger * kFullMatch) continue;
     s = {};
     state.blobs.leave(i);
     hasStrangers = true;

@@ -34,10 +34,11 @@ FitTask fitTaskOf(const TrackerState& state, size_t index, const GroupGrid& e, i
   task.reachY = isNew ? atFirst(n.firstReachY.of(height)) : within(n.reachY.of(height));
   for (int bin = 0; bin < kColourBins && track.look.frames > 0; ++bin) {
     const int share = shareOf(track.look, bin);
-    task.bonus[static_cast<size_t>(bin)] = share > n.ownColour.of(kFullMatch)    ? 2
-                                           : share > n.someColour.of(kFullMatch) ? 1
-                                           : share > n.fewColour.of(kFullMatch)  ? 0
-                                                                                 : -1;
+    const int bonus = share > n.ownColour.of(kFullMatch)    ? 2
+                      : share > n.someColour.of(kFullMatch) ? 1
+                      : share > n.fewColour.of(kFullMatch)  ? 0
+                                                            : -1;
+    task.bonus[static_cast<size_t>(bin)] = static_cast<int16_t>(bonus * state.appearance / 256);
   }
   return task;
 }
