@@ -92,6 +92,11 @@ constexpr std::array kProperties{
         "What it costs to part regions that were expected to be one object, by where that was in "
         "the previous frame and how it moved. Higher keeps objects whole",
         0, 1000),
+    property<Settings, &Settings::appearanceWeight>(
+        "appearance-weight",
+        "Weight of how alike what is seen and an object look, against how far from its expected "
+        "place that is. 0 tells objects by their places alone",
+        0, 1000),
     property<Settings, &Settings::motionThreshold>(
         "motion-threshold",
         "Regions whose speeds differ by less than this move alike, and a moving camera's frame is "

@@ -20,8 +20,8 @@ void Movers::compareWith(const PastFrame& past, const motion::Motion& motion,
                          const MoverRules& rules, Operations& operations) {
   expected_.clear();
   for (const Track& track : rules.tracks)
-    expected_.push_back({Tracker::expectedShift(track, past.camera, past.ageNs),
-                         isFollowed(track, rules.parallax)});
+    expected_.push_back(
+        {expectedShift(track, past.camera, past.ageNs), isFollowed(track, rules.parallax)});
   findOwnMotion(motion, {*past.picture, past.camera, past.ageNs, rules.stepNs},
                 {rules.arcs, rules.weights, rules.expected, expected_, &parallax_}, operations,
                 scratch_, own_);

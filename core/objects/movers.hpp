@@ -11,7 +11,7 @@
 #include "core/objects/merge/own_motion.hpp"
 #include "core/objects/merge/parallax.hpp"
 #include "core/objects/merge/past_frames.hpp"
-#include "core/objects/tracking/tracker.hpp"
+#include "core/objects/tracking/track.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -115,7 +115,7 @@ void ObjectStage::expectLabels(const graph::Graph& graph, int64_t stepNs, Object
   if (tracker_.owner().empty() || evidence_.frame != graph.size) return;
   shifts_.clear();
   for (const Track& track : tracker_.tracks())
-    shifts_.push_back(tracker_.expectedShift(track, objects.camera, stepNs));
+    shifts_.push_back(expectedShift(track, objects.camera, stepNs));
   findRegionOwners(*graph.labels, evidence_, tracker_.owner(), shifts_, ownerScratch_, expected_);
   for (size_t r = 0; r < expected_.size(); ++r)
     if (expected_[r]) objects.regionExpected[r] = trackAt(expected_[r]).id;
@@ -216,8 +216,8 @@ void ObjectStage::tieToGround(const graph::Graph& graph, const MergeWeights& wei
 /// What has stopped is expected where it is seen, whatever it did before.
 void ObjectStage::recallStanding(const graph::Graph& graph, Objects& objects) {
   standing_.assign(graph.regions.size(), {});
-  findStandingTracks(tracker_, *graph.labels, objects.camera, graph.regions, standingScratch_,
-                     standing_);
+  findStandingTracks(tracker_.state(), *graph.labels, objects.camera, graph.regions,
+                     standingScratch_, standing_);
   for (size_t r = 0; r < standing_.size(); ++r) {
     if (!standing_[r].track) continue;
     expected_[r] = standing_[r].track;
@@ -336,7 +336,7 @@ void ObjectStage::markKnown(const graph::Graph& graph, const Objects& objects) {
     const uint32_t group = objects.regionGroup[r].index(), areaPx = graph.regions[r].areaPx;
     if (!expected_[r] || areaPx <= mainPx_[group]) continue;
     mainPx_[group] = areaPx;
-    isKnown[group] = tracker_.isFaithful(trackAt(expected_[r]));
+    isKnown[group] = tracker_.state().isFaithful(trackAt(expected_[r]));
   }
 }
 
@@ -358,6 +358,7 @@ Result<std::shared_ptr<const Objects>> ObjectStage::process(Input in, const Para
       static_cast<int64_t>(std::clamp(params.maxLostTimeS, 0.0, 3600.0) * 1e9),
       static_cast<uint32_t>(std::lround(std::clamp(params.minObjectArea, 0.0, 100.0) / 100 *
                                         static_cast<double>(motion->size.area()))),
+      static_cast<int32_t>(std::lround(std::clamp(params.appearanceWeight, 0.0, 1000.0) * 256)),
       params.numbers};
   const int64_t stepNs = stepTo(time);
   const std::shared_ptr<const graph::Graph> graph = motion->graph;

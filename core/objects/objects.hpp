@@ -40,6 +40,8 @@ struct Params {
                                   ///< sixteenths of the root of the frame's area.
   double predictionWeight = 2.0;  ///< What it costs to part regions that were expected to be one
                                   ///< object.
+  double appearanceWeight = 1.0;  ///< Of how alike what is seen and an object look, against how far
+                                  ///< from its expected place that is.
   double motionThreshold = 4.5;   ///< Speeds that differ by less are alike; percent of the root of
                                   ///< the frame's area per second.
   double maxLostTimeS = 2.0;      ///< An object that is not seen for longer ends.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// What each term of the energy is worth: made-up scenes with known truth, with all terms and with
-// one left out at a time. Under a panning camera without bgremove, where the merging alone parts
+// What each term is worth: made-up scenes with known truth, with all terms, with one left out at a
+// time, and with none. Under a panning camera without bgremove, where the merging alone parts
 // things from the ground, also by arcs: one between two regions is told right when it is kept
 // within a thing, or the ground, and broken between two.
 #include "core/objects/objects.hpp"
@@ -9,11 +9,13 @@
 #include "tests/accuracy/verdict.hpp"
 #include "tests/support/value_of.hpp"
 
-#include <array>
 #include <cstdio>
 #include <iostream>
+#include <iterator>
 #include <map>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace rg::truth {
 namespace {
@@ -70,10 +72,10 @@ struct Means {
   }
 };
 
-/// Stage 5 with one term left out, or with all of them.
+/// Stage 5 with some terms left out.
 struct Trial {
   const char* name;
-  double objects::Params::*leftOut = nullptr;
+  std::vector<double objects::Params::*> leftOut;
   objects::Params params;
   std::unique_ptr<objects::Stage> stage;
   Verdict verdict;
@@ -102,16 +104,26 @@ struct Trial {
   }
 };
 
-using Trials = std::array<Trial, 5>;
+using Trials = std::vector<Trial>;
 
 Trials makeTrials(const Context& context) {
-  Trials trials{{{"all terms", nullptr, {}, {}, {}, {}},
-                 {"without U1", &objects::Params::motionWeight, {}, {}, {}, {}},
-                 {"without U2", &objects::Params::borderWeight, {}, {}, {}, {}},
-                 {"without U3", &objects::Params::arcWeight, {}, {}, {}, {}},
-                 {"no prediction", &objects::Params::predictionWeight, {}, {}, {}, {}}}};
+  using objects::Params;
+  const std::pair<const char*, double Params::*> terms[] = {
+      {"without U1", &Params::motionWeight},
+      {"without U2", &Params::borderWeight},
+      {"without U3", &Params::arcWeight},
+      {"no prediction", &Params::predictionWeight},
+      {"no appearance", &Params::appearanceWeight}};
+  Trials trials(std::size(terms) + 2);
+  trials.front().name = "all terms";
+  trials.back().name = "no terms";
+  for (size_t i = 0; i < std::size(terms); ++i) {
+    trials[i + 1].name = terms[i].first;
+    trials[i + 1].leftOut.push_back(terms[i].second);
+    trials.back().leftOut.push_back(terms[i].second);
+  }
   for (Trial& trial : trials) {
-    if (trial.leftOut) trial.params.*trial.leftOut = 0;
+    for (const auto term : trial.leftOut) trial.params.*term = 0;
     trial.stage = objects::makeStage(context);
   }
   return trials;

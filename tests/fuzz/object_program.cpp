@@ -102,6 +102,7 @@ void ObjectProgram::changeParams() {
   params_.borderWeight = weight();
   params_.arcWeight = weight();
   params_.predictionWeight = weight();
+  params_.appearanceWeight = weight();
   params_.motionThreshold = bytes_.take();
   params_.maxLostTimeS = bytes_.take() / 16.0;
   params_.minObjectArea = bytes_.flip() ? 0 : bytes_.take() / 16.0;

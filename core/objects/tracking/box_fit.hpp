@@ -23,16 +23,14 @@ struct FitTask {
   Box expected;    ///< In cells.
   int reachX = 0;  ///< Largest shift searched, in cells.
   int reachY = 0;
-  int tier = 0;                    ///< Boxes of a lower tier choose first and don't yield.
-  std::array<int8_t, 32> bonus{};  ///< By colour bin: −kMaxBonus … kMaxBonus.
-  uint16_t track = 0;              ///< As in GroupGrid::expected; 0 = none.
-  Box fitted;                      ///< Result.
+  int tier = 0;                     ///< Boxes of a lower tier choose first and don't yield.
+  std::array<int16_t, 32> bonus{};  ///< By colour bin.
+  uint16_t track = 0;               ///< As in GroupGrid::expected; 0 = none.
+  Box fitted;                       ///< Result.
 
   /// Of the track that it looks for.
   [[nodiscard]] size_t trackIndex() const { return track - 1u; }
 };
-
-inline constexpr int kMaxBonus = 2;
 
 struct FitScratch {
   std::vector<uint16_t> claims;    ///< Of each cell: by how many fitted boxes it is covered.

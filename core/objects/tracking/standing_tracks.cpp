@@ -50,15 +50,15 @@ bool isSeenStanding(const Track& track, const Picture& picture, Point expected, 
 
 }  // namespace
 
-void findStandingTracks(const Tracker& tracker, const segmentation::Labels& labels,
+void findStandingTracks(const TrackerState& state, const segmentation::Labels& labels,
                         const CameraMotion& camera, std::span<const graph::Region> regions,
                         StandingScratch& s, std::span<StandingTrack> ofRegion) {
   s.votes.resize(std::max(s.votes.size(), regions.size()), 0);
-  const std::vector<Track>& tracks = tracker.tracks();
-  const Numbers::Likeness& n = tracker.numbers().likeness;
+  const std::vector<Track>& tracks = state.tracks;
+  const Numbers::Likeness& n = state.numbers.likeness;
   for (uint32_t t = 0; t < tracks.size(); ++t) {
     const Track& track = tracks[t];
-    if (!track.isConfirmed || !track.hasTravelled || !tracker.isFaithful(track)) continue;
+    if (!track.isConfirmed || !track.hasTravelled || !state.isFaithful(track)) continue;
     Point corner;
     if (!isSeenStanding(track, *labels.picture,
                         track.portraitCorner(camera.since({track.x, track.foot})), n.standing,

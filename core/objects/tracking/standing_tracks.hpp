@@ -8,7 +8,7 @@
 // Determinism: integer counts of pixels; the track with the smaller number wins ties.
 #pragma once
 
-#include "core/objects/tracking/tracker.hpp"
+#include "core/objects/tracking/tracker_state.hpp"
 #include "core/segmentation/segmentation.hpp"
 
 #include <cstdint>
@@ -31,7 +31,7 @@ struct StandingScratch {
 /// tracks: as they were in the previous frame; camera: how the ground has moved since.
 /// Result: of each region that a thing shows in at least half of its pixels, that thing; `ofRegion`
 /// comes with an entry per region. Cost: nine looks at a part of each portrait.
-void findStandingTracks(const Tracker& tracker, const segmentation::Labels& labels,
+void findStandingTracks(const TrackerState& state, const segmentation::Labels& labels,
                         const CameraMotion& camera, std::span<const graph::Region> regions,
                         StandingScratch& scratch, std::span<StandingTrack> ofRegion);
 

@@ -127,6 +127,18 @@ TEST(Objects, WhoComesInWhereAnotherLeavesIsSomebodyElse) {
   EXPECT_GE(overlap(told[0]->box, {230, 96, 40, 70}), 0.8);
 }
 
+TEST(Objects, WithoutAppearanceWhoComesInWhereAnotherLeavesIsTakenForIt) {
+  BodyScene scene;
+  scene.params.appearanceWeight = 0;
+  std::shared_ptr<const objects::Objects> objects;
+  for (int i = 0; i < 90; ++i)
+    objects = scene.show(
+        {{{40 + 4 * i, 100, 30, 80}, kRed}, {{std::max(230, 550 - 4 * i), 96, 40, 70}, kGreen}});
+  const auto told = toldOf(*objects);
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_EQ(told[0]->id, 1u);
+}
+
 TEST(Objects, AKnownObjectKeepsItsSizeInCompany) {
   BodyScene scene;
   for (int i = 0; i < 60; ++i) {

@@ -112,6 +112,7 @@ struct PortraitSearch {
   Point reach;   ///< The most on either side, in pixels.
   int calm = 1;
   Point turn;
+  int32_t appearance = 256;  ///< Weight of the colours against the distance, in 1/256, not 0.
 };
 
 struct PortraitScratch {

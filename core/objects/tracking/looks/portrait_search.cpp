@@ -188,8 +188,9 @@ class Finder {
     // Things as large as the largest frames, unseen for an hour, reach the ends of 64 bits.
     const int64_t weight = distance_ * kGain * static_cast<int64_t>(samples);
     const int64_t whole = width * width * height * height;
-    return std::min(far, INT64_MAX / weight) * weight /
-           (whole * std::min<int64_t>(where_.calm, INT64_MAX / whole));
+    const int64_t cost = std::min(far, INT64_MAX / weight) * weight /
+                         (whole * std::min<int64_t>(where_.calm, INT64_MAX / whole));
+    return std::min(cost, INT64_MAX / 1024) * 256 / where_.appearance;  // Sums of it fit, too.
   }
 
   /// Replaces `best` by the place if that is better.

@@ -70,7 +70,7 @@ TEST(BoxFit, ColourDecidesWhereTwoPlacesAreAlike) {
   for (int y = 20; y < 40; ++y)
     for (int x = 26; x < 34; ++x) e.bin[e.at(x, y)] = 1;
   objects::FitTask task = taskAt({20, 20, 8, 20});
-  task.bonus[1] = objects::kMaxBonus;
+  task.bonus[1] = 2;
   EXPECT_EQ(fit(e, {task})[0].fitted.x, 26);
 }
 

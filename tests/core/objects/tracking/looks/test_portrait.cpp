@@ -197,7 +197,7 @@ TEST(Portrait, ASliverBetweenTheCoarsePlacesIsFound) {
     }
 }
 
-TEST(Portrait, DistanceCostsUnlessItWasUnseenForLong) {
+TEST(Portrait, DistanceCostsUnlessItWasUnseenForLongOrColoursWeighMore) {
   Stage stage({160, 90});
   const objects::Portrait portrait = learntAt(stage, {40, 30});
   stage.paint([](int x, int y) {
@@ -213,6 +213,8 @@ TEST(Portrait, DistanceCostsUnlessItWasUnseenForLong) {
       placeOf(objects::findPortrait(portrait, stage.scene(), {{40, 30}, {30, 4}, 50, {}}, scratch))
           .x,
       24);
+  const objects::PortraitSearch byColours{{40, 30}, {30, 4}, 1, {}, 50 * 256};
+  EXPECT_EQ(placeOf(objects::findPortrait(portrait, stage.scene(), byColours, scratch)).x, 24);
 }
 
 TEST(Portrait, WhatItLosesFadesAndWhatItGainsIsLearnt) {

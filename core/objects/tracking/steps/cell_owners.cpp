@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Which cells belong to which track, beyond the boxes that were fitted.
-#include "core/objects/tracking/tracker.hpp"
+#include "core/objects/tracking/steps/cell_owners.hpp"
 
 #include <algorithm>
 
@@ -22,104 +21,63 @@ bool standBeside(const Box& mine, const Box& other, const Numbers::Cells& n) {
          other.height >= n.besideHeight * mine.height;
 }
 
-}  // namespace
-
-/// Connected parts of all the foreground.
-void Tracker::findBlobs(const GroupGrid& e) {
-  findPieces(e, {}, blobScratch_, blobs_);
-  if (!scale_.isUniform()) cutPieces(e, blobScratch_, blobs_);
-  findOwnBlobs(e);
-}
-
-/// For each track the blob that it has most cells in.
-void Tracker::findOwnBlobs(const GroupGrid& e) {
-  blobOf_.assign(tracks_.size(), 0);
-  soleTrack_.assign(blobs_.size() + 1, 0);
-  blobCells_.assign(blobs_.size() + 1, 0);
-  constexpr uint16_t kSeveral = UINT16_MAX;
-  for (size_t t = 0; t < tasks_.size(); ++t) {
-    const size_t track = tasks_[t].trackIndex();
-    uint32_t& best = blobOf_[track];
-    const Box box = intersect(tasks_[t].fitted, boundsOf(e.grid));
-    uint32_t most = 0;
-    seenBlobs_.clear();
-    for (int y = box.y; y < box.bottom(); ++y)
-      for (size_t cell = e.at(box.x, y), end = cell + static_cast<size_t>(box.width); cell < end;
-           ++cell)
-        if (owner_[cell] == track + 1 && blobCells_[blobScratch_.label[cell]]++ == 0)
-          seenBlobs_.push_back(blobScratch_.label[cell]);
-    for (const uint32_t blob : seenBlobs_) {
-      if (blobCells_[blob] > most || (blobCells_[blob] == most && blob < best)) {
-        most = blobCells_[blob];
-        best = blob;
-      }
-      blobCells_[blob] = 0;
-    }
-    if (best == 0) continue;
-    uint16_t& sole = soleTrack_[best];
-    sole = sole == 0 ? static_cast<uint16_t>(track + 1) : kSeveral;
-  }
-  for (uint16_t& sole : soleTrack_)
-    if (sole == kSeveral) sole = 0;
-}
-
 /// Calls visit(cell, its blob, the owner's blob) for the cells whose owner has most of its cells in
 /// another blob, in raster order. It may take the cell from its owner.
 template <class Visit>
-void Tracker::forStrayCells(const GroupGrid& e, const Visit& visit) const {
-  e.forParts(owner_, [&](const Run& part, uint16_t owner) {
+void forStrayCells(const TrackerState& state, const GroupGrid& e, const Visit& visit) {
+  e.forParts(state.owner, [&](const Run& part, uint16_t owner) {
     if (owner == 0) return;
-    const uint32_t main = blobOf_[owner - 1u];
+    const uint32_t main = state.blobs.numberOf(owner - 1u);
     const size_t end = e.at(part.end, part.y);
     for (size_t cell = e.at(part.begin, part.y); cell < end; ++cell) {
-      const uint32_t blob = blobScratch_.label[cell];
+      const uint32_t blob = state.blobs.at(cell);
       if (blob != 0 && blob != main) visit(cell, blob, main);
     }
   });
 }
 
-/// As long as the scene doesn't say how large things are, one blob is one object: whoever is in it
-/// shares all of it, each the cells that are nearest, and has nothing of another blob that stands
-/// beside it and is about as high.
-void Tracker::giveBlobs(const GroupGrid& e) {
-  if (scale_.isUniform()) return;
-  forStrayCells(e, [&](size_t cell, uint32_t blob, uint32_t main) {
-    const uint16_t owner = owner_[cell];
-    const Box &mine = blobs_[main - 1].box, &other = blobs_[blob - 1].box;
-    if (areStrangersApart(e, blobs_[main - 1].group, blobs_[blob - 1].group)) {
-      owner_[cell] = 0;
+}  // namespace
+
+void CellOwners::shareBlobs(const GroupGrid& e, TrackerState& state) {
+  if (state.scale.isUniform()) return;
+  forStrayCells(state, e, [&](size_t cell, uint32_t blob, uint32_t main) {
+    const uint16_t owner = state.owner[cell];
+    const Piece &mine = state.blobs.piece(main), &other = state.blobs.piece(blob);
+    if (areStrangersApart(e, mine.group, other.group)) {
+      state.owner[cell] = 0;
       return;
     }
-    if (!standBeside(mine, other, numbers_.cells)) return;
-    sightings_[owner - 1u].isParted = true;
-    const Track& track = tracks_[owner - 1u];
-    if (!isSizeKnown(track) || track.partedNs > numbers_.cells.parted.whole()) owner_[cell] = 0;
+    if (!standBeside(mine.box, other.box, state.numbers.cells)) return;
+    state.sightings[owner - 1u].isParted = true;
+    const Track& track = state.tracks[owner - 1u];
+    if (!state.isSizeKnown(track) || track.partedNs > state.numbers.cells.parted.whole())
+      state.owner[cell] = 0;
   });
-  partTracks(e);
-  limitTracks(e);
-  reclaimExpected(e);
-  spreadOwners(e);
+  partTracks(e, state);
+  limitTracks(e, state);
+  reclaimExpected(e, state);
+  spreadOwners(e, state);
 }
 
 /// Two things above each other were taken for one when they came in: once one has moved against the
 /// other by a quarter of a width, it is given up. Parts of a body don't do that.
-void Tracker::partTracks(const GroupGrid& e) {
-  findMajorities(tracks_.size(), majorities_, [&](auto&& count) {
-    forStrayCells(
-        e, [&](size_t cell, uint32_t blob, uint32_t) { count(owner_[cell] - 1u, blob, 1u); });
+void CellOwners::partTracks(const GroupGrid& e, TrackerState& state) {
+  findMajorities(state.tracks.size(), majorities_, [&](auto&& count) {
+    forStrayCells(state, e, [&](size_t cell, uint32_t blob, uint32_t) {
+      count(state.owner[cell] - 1u, blob, 1u);
+    });
   });
-  const Numbers::Cells& n = numbers_.cells;
+  const Numbers::Cells& n = state.numbers.cells;
   const Box inside = inflate(boundsOf(e.grid), -1);
   const auto isInside = [&](const Box& box) { return intersect(box, inside) == box; };
-  for (size_t t = 0; t < tracks_.size(); ++t) {
-    Track& track = tracks_[t];
+  for (size_t t = 0; t < state.tracks.size(); ++t) {
+    Track& track = state.tracks[t];
     const Majority& other = majorities_[t];
-    const bool isPair = blobOf_[t] != 0 && soleTrack_[blobOf_[t]] == t + 1 &&
-                        2 * other.votes > other.total &&
-                        std::count(blobOf_.begin(), blobOf_.end(), other.value) == 0;
+    const bool isPair = state.blobs.isAlone(t) && 2 * other.votes > other.total &&
+                        !state.blobs.isOwned(other.value);
     if (!isPair) track.partOffset = INT32_MIN;
     if (!isPair) continue;
-    const Piece &main = blobs_[blobOf_[t] - 1], &part = blobs_[other.value - 1];
+    const Piece &main = state.blobs.of(t), &part = state.blobs.piece(other.value);
     const int least = std::min(main.box.width, part.box.width);
     if (!isInside(main.box) || !isInside(part.box) || part.cells < n.partCells * main.cells)
       continue;
@@ -128,7 +86,7 @@ void Tracker::partTracks(const GroupGrid& e) {
     if (track.partOffset == INT32_MIN) track.partOffset = offset;
     if (std::abs(offset - track.partOffset) <= n.partOffset * (least * e.stepPx)) continue;
     e.forForeground([&](size_t cell, int, int) {
-      if (owner_[cell] == t + 1 && blobScratch_.label[cell] == other.value) owner_[cell] = 0;
+      if (state.owner[cell] == t + 1 && state.blobs.at(cell) == other.value) state.owner[cell] = 0;
     });
     track.sizeSamples = 0;
     track.portrait.frames = 0;
@@ -137,37 +95,39 @@ void Tracker::partTracks(const GroupGrid& e) {
 }
 
 /// A track of known size ends a little way beyond its box.
-void Tracker::limitTracks(const GroupGrid& e) {
-  limits_.assign(tracks_.size(), boundsOf(e.grid));
-  for (size_t t = 0; t < tasks_.size(); ++t) {
-    const Box& box = tasks_[t].fitted;
-    if (isSizeKnown(tracks_[tasks_[t].trackIndex()]))
-      limits_[tasks_[t].trackIndex()] = inflate(
-          box,
-          std::max(2, static_cast<int>(numbers_.cells.limit.of(std::min(box.width, box.height)))));
+void CellOwners::limitTracks(const GroupGrid& e, const TrackerState& state) {
+  limits_.assign(state.tracks.size(), boundsOf(e.grid));
+  for (size_t t = 0; t < state.tasks.size(); ++t) {
+    const Box& box = state.tasks[t].fitted;
+    if (state.isSizeKnown(state.tracks[state.tasks[t].trackIndex()]))
+      limits_[state.tasks[t].trackIndex()] = inflate(
+          box, std::max(2, static_cast<int>(
+                               state.numbers.cells.limit.of(std::min(box.width, box.height)))));
   }
 }
 
 /// Cells go to whom their region is predicted to be, unless a portrait told whose they are.
-void Tracker::reclaimExpected(const GroupGrid& e) {
+void CellOwners::reclaimExpected(const GroupGrid& e, TrackerState& state) const {
   e.forParts(e.expected, [&](const Run& part, uint16_t expected) {
     if (expected == 0) return;
     const Box& limits = limits_[expected - 1u];
     const Box cells = intersect({part.begin, part.y, part.end - part.begin, 1}, limits);
     for (size_t cell = e.at(cells.x, part.y), end = cell + static_cast<size_t>(cells.width);
          cell < end; ++cell) {
-      const bool isTold = owner_[cell] != 0 && sightings_[owner_[cell] - 1u].isMatched;
-      if (!isTold && blobScratch_.label[cell] == blobOf_[expected - 1u]) owner_[cell] = expected;
+      const bool isTold =
+          state.owner[cell] != 0 && state.sightings[state.owner[cell] - 1u].isMatched;
+      if (!isTold && state.blobs.at(cell) == state.blobs.numberOf(expected - 1u))
+        state.owner[cell] = expected;
     }
   });
 }
 
 /// Two passes over the grid, each handing owners on with a distance of 3 straight and 4 diagonally.
-void Tracker::spreadOwners(const GroupGrid& e) {
+void CellOwners::spreadOwners(const GroupGrid& e, TrackerState& state) {
   constexpr uint16_t kFar = UINT16_MAX;
-  distance_.resize(owner_.size());
+  distance_.resize(state.owner.size());
   bool isComplete = true;
-  e.forParts(owner_, [&](const Run& part, uint16_t owner) {
+  e.forParts(state.owner, [&](const Run& part, uint16_t owner) {
     std::fill_n(distance_.data() + e.at(part.begin, part.y), part.end - part.begin,
                 owner != 0 ? uint16_t{0} : kFar);
     isComplete = isComplete && owner != 0;
@@ -180,11 +140,11 @@ void Tracker::spreadOwners(const GroupGrid& e) {
     for (const Point& d : sources) {
       if (!boundsOf(e.grid).contains({x + d.x, y + d.y})) continue;
       const size_t other = e.at(x + d.x, y + d.y);
-      if (blobScratch_.label[other] != blobScratch_.label[cell]) continue;
+      if (state.blobs.at(other) != state.blobs.at(cell)) continue;
       const uint32_t far = distance_[other] + (d.x != 0 && d.y != 0 ? 4u : 3u);
-      if (far >= distance_[cell] || !limits_[owner_[other] - 1u].contains({x, y})) continue;
+      if (far >= distance_[cell] || !limits_[state.owner[other] - 1u].contains({x, y})) continue;
       distance_[cell] = static_cast<uint16_t>(far);
-      owner_[cell] = owner_[other];
+      state.owner[cell] = state.owner[other];
     }
   };
   e.forForeground([&](size_t, int x, int y) { take(1, x, y); });
@@ -194,11 +154,11 @@ void Tracker::spreadOwners(const GroupGrid& e) {
 
 /// What sticks out of a fitted box (an arm, a long stride) goes with its group, when most of the
 /// group belongs to one track.
-void Tracker::giveStrides(const GroupGrid& e) {
-  const Numbers::Cells& n = numbers_.cells;
-  for (size_t t = 0; t < tasks_.size(); ++t) {
-    const auto mine = tasks_[t].track;
-    const Box& fitted = tasks_[t].fitted;
+void CellOwners::giveStrides(const GroupGrid& e, TrackerState& state) const {
+  const Numbers::Cells& n = state.numbers.cells;
+  for (size_t t = 0; t < state.tasks.size(); ++t) {
+    const auto mine = state.tasks[t].track;
+    const Box& fitted = state.tasks[t].fitted;
     const int side = std::max(1, static_cast<int>(n.strideSide.of(fitted.width)));
     const int above = std::max(1, static_cast<int>(n.strideAbove.of(fitted.height)));
     const Box near = intersect(
@@ -207,34 +167,34 @@ void Tracker::giveStrides(const GroupGrid& e) {
     for (int y = near.y; y < near.bottom(); ++y)
       for (int x = near.x; x < near.right(); ++x) {
         const size_t cell = e.at(x, y);
-        if (e.group[cell] == 0 || owner_[cell] != 0) continue;
+        if (e.group[cell] == 0 || state.owner[cell] != 0) continue;
         const Majority& group = majorities_[e.group[cell] - 1u];
         if (group.value == mine && group.votes >= n.groupShare * e.cellsOf[e.group[cell] - 1u])
-          owner_[cell] = mine;
+          state.owner[cell] = mine;
       }
   }
 }
 
-/// The groups of which a track has most are what is seen of it, once it has what sticks out of it.
-void Tracker::giveGroups(const GroupGrid& e, std::span<const Group> groups) {
+void CellOwners::giveGroups(const GroupGrid& e, std::span<const Group> groups,
+                            TrackerState& state) {
   const auto vote = [&](auto&& count) {
-    e.forParts(owner_, [&](const Run& part, uint16_t owner) {
+    e.forParts(state.owner, [&](const Run& part, uint16_t owner) {
       if (owner == 0) return;
       count(e.group[e.at(part.begin, part.y)] - 1u, owner, uint32_t{part.end} - part.begin);
     });
   };
   findMajorities(groups.size(), majorities_, vote);
-  giveStrides(e);
-  const Numbers::Cells& n = numbers_.cells;
+  giveStrides(e, state);
+  const Numbers::Cells& n = state.numbers.cells;
   // Where sizes say nothing, a group of several is shared cell by cell.
   const auto isOwned = [&](size_t g) {
     const uint32_t votes = majorities_[g].votes, cells = e.cellsOf[g];
-    return votes > 0 && votes >= (scale_.isUniform() ? n.uniformShare : n.loneShare) * cells;
+    return votes > 0 && votes >= (state.scale.isUniform() ? n.uniformShare : n.loneShare) * cells;
   };
-  if (!scale_.isUniform())
-    e.forParts(owner_, [&](const Run& part, uint16_t owner) {
+  if (!state.scale.isUniform())
+    e.forParts(state.owner, [&](const Run& part, uint16_t owner) {
       if (owner == 0 || isOwned(e.group[e.at(part.begin, part.y)] - 1u)) return;
-      Sighting& s = sightings_[owner - 1u];
+      Sighting& s = state.sightings[owner - 1u];
       const Box box = intersect(
           {part.begin * e.stepPx, part.y * e.stepPx, (part.end - part.begin) * e.stepPx, e.stepPx},
           boundsOf(e.frame));
@@ -245,7 +205,7 @@ void Tracker::giveGroups(const GroupGrid& e, std::span<const Group> groups) {
     });
   for (size_t g = 0; g < groups.size(); ++g) {
     if (!isOwned(g)) continue;
-    Sighting& s = sightings_[majorities_[g].value - 1u];
+    Sighting& s = state.sightings[majorities_[g].value - 1u];
     s.box = unite(s.box, groups[g].box);
     s.areaPx += groups[g].areaPx;
     s.sumX += groups[g].sumX;

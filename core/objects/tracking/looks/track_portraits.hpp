@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Where tracks are that share a blob or of which only a part is seen: by their portraits.
+#pragma once
+
+#include "core/objects/tracking/tracker_state.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace rg::objects {
+
+class TrackPortraits {
+ public:
+  /// Who is seen best stands in front and takes its place first; the others are looked for in what
+  /// it leaves.
+  void place(const GroupGrid& evidence, int64_t stepNs, TrackerState& state);
+
+ private:
+  /// A track that is looked for.
+  struct Task {
+    size_t track = 0, fit = 0;  ///< Indices.
+    PortraitSearch search;
+    PortraitMatch match;
+    Point corner;  ///< Where it was found, in pixels.
+  };
+  void list(const GroupGrid& evidence, TrackerState& state);
+  [[nodiscard]] PortraitMatch find(const PortraitScene& scene, const Task& task,
+                                   const TrackerState& state);
+  [[nodiscard]] bool isDisturbed(size_t index, const GroupGrid& evidence,
+                                 const TrackerState& state) const;
+  void giveMatch(const PortraitScene& scene, Task& task, TrackerState& state);
+
+  std::vector<Task> tasks_;
+  std::vector<uint8_t> taken_;  ///< Of each cell.
+  std::vector<uint8_t> isSearched_;
+  PortraitScratch scratch_;
+};
+
+/// Of a track that was seen whole.
+void learnPortrait(size_t index, const GroupGrid& evidence, TrackerState& state);
+
+/// Where the middle of a portrait's lower edge is that was looked for at `corner`, in 1/16 px.
+[[nodiscard]] Point placeOfMatch(const Track& track, Point corner, const PortraitMatch& match);
+
+}  // namespace rg::objects

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "core/objects/tracking/steps/doubles.hpp"
+
+#include <algorithm>
+
+namespace rg::objects {
+namespace {
+
+constexpr int kUnit = kPositionUnit;
+
+/// Whether two tracks seem to be one body: they lie above each other as its halves do.
+bool areOneBody(const TrackerState& state, const GroupGrid& e, size_t a, size_t b) {
+  const Numbers::Life& n = state.numbers.life;
+  const Track &p = state.tracks[a], &q = state.tracks[b];
+  const Box first = p.box(), second = q.box(), both = unite(first, second);
+  const int columns = std::min(first.right(), second.right()) - std::max(first.x, second.x);
+  if (state.blobs.has(a) && state.blobs.has(b) &&
+      areApart(e, state.blobs.of(a).group, state.blobs.of(b).group))
+    return false;
+  if (state.outgrows(p, both) || state.outgrows(q, both)) return false;
+  if (!state.scale.isUniform() && state.blobs.has(a) && state.blobs.areTogether(a, b) &&
+      std::min(p.apartNs, q.apartNs) < n.doubled.whole())
+    return true;
+  if (columns < n.oneBodyColumns * std::min(first.width, second.width)) return false;
+  if (!state.scale.isUniform()) {
+    const int rows = std::min(first.bottom(), second.bottom()) - std::max(first.y, second.y);
+    const int least = std::min(first.height, second.height);
+    return rows < n.oneBodyRows * least && -rows < n.oneBodyGap * least;
+  }
+  const Extent usual = state.scale.at(both.bottom());
+  return both.height * kUnit < n.oneBodyHeight * usual.height;
+}
+
+}  // namespace
+
+void joinDoubles(const GroupGrid& e, int64_t stepNs, TrackerState& state) {
+  for (size_t b = 0; b < state.sightings.size(); ++b) {
+    Track& track = state.tracks[b];
+    if (!track.isSeen) continue;
+    size_t partner = b;
+    for (size_t a = 0; a < b && partner == b; ++a)
+      if (state.tracks[a].isSeen && !state.tracks[a].isOver && areOneBody(state, e, a, b))
+        partner = a;
+    if (partner == b) {
+      track.doubleNs = 0;
+      continue;
+    }
+    track.doubleNs += stepNs;
+    // Nothing says that it is a thing of its own when it was apart for a shorter time.
+    const int64_t doubled = state.numbers.life.doubled.whole();
+    if (track.doubleNs < (state.scale.isUniform() ? doubled : std::min(doubled, track.apartNs)))
+      continue;
+    Track& kept = state.tracks[partner];
+    if (!state.scale.isUniform()) {
+      const Box both = unite(kept.box(), track.box());
+      kept.x = (2 * both.x + both.width) * kUnit / 2;
+      kept.foot = both.bottom() * kUnit;
+      kept.size = {both.width * kUnit, both.height * kUnit};
+      kept.sizeSamples = 0;
+    }
+    track.isOver = true;
+    for (uint16_t& owner : state.owner)
+      if (owner == b + 1) owner = static_cast<uint16_t>(partner + 1);
+  }
+}
+
+}  // namespace rg::objects

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "core/objects/tracking/steps/returns.hpp"
+
+#include "core/base/pixel.hpp"
+#include "core/base/time/frame_count.hpp"
+#include "core/objects/tracking/looks/track_portraits.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace rg::objects {
+namespace {
+
+constexpr int kUnit = kPositionUnit;
+constexpr size_t kMaxTracks = 256;  // Together with kMaxNewcomers bounds a frame of noise.
+
+/// The object that a newcomer comes out of: the one that it touches, or whose place it overlaps
+/// most when it appears right beside it. 0 = none.
+uint64_t parentOf(const Newcomer& newcomer, const TrackerState& state) {
+  if (newcomer.parent != 0 || newcomer.isAtBorder) return newcomer.parent;
+  const auto beside = [&](int width) {
+    return static_cast<int>(state.numbers.newcomers.besideParent.of(width));
+  };
+  uint64_t parent = 0;
+  int64_t most = 0;
+  for (const Track& track : state.tracks) {
+    const Box box = track.box();
+    const int64_t shared = intersect(inflate(box, beside(box.width)), newcomer.box).area();
+    if (!track.isConfirmed || track.state == ObjectState::Lost || shared <= most) continue;
+    most = shared;
+    parent = track.id;
+  }
+  return parent;
+}
+
+/// How much a newcomer looks like a track. What comes out of a blob that a missing track went into
+/// may also be the other one of the two; who is who is judged later.
+int likeness(const Track& track, const Newcomer& newcomer, const Encounters& encounters,
+             const TrackerState& state) {
+  const int own = similarity(track.look, newcomer.appearance);
+  const Track* other = state.find(parentOf(newcomer, state));
+  if (!other || !encounters.contains(track.id, other->id)) return own;
+  return std::max(own, similarity(other->look, newcomer.appearance));
+}
+
+void begin(const Newcomer& newcomer, TrackerState& state) {
+  Track track;
+  track.id = state.nextId++;
+  track.x = (2 * newcomer.box.x + newcomer.box.width) * kUnit / 2;
+  track.foot = newcomer.box.bottom() * kUnit;
+  track.size = {newcomer.box.width * kUnit, newcomer.box.height * kUnit};
+  if (state.scale.isUniform()) {
+    const Extent expected = state.scale.at(newcomer.box.bottom());
+    const bool isUsual = track.size.width <= state.numbers.newcomers.usualWidth * expected.width &&
+                         track.size.height <= state.numbers.newcomers.usualHeight * expected.height;
+    // What comes in shows a part: the rest is beyond the border that it touches.
+    if (isUsual) {
+      const Box& box = newcomer.box;
+      track.size = expected;
+      if (box.x <= 0) track.x = box.right() * kUnit - expected.width / 2;
+      if (box.right() >= state.frame.width) track.x = box.x * kUnit + expected.width / 2;
+      if (box.bottom() >= state.frame.height) track.foot = box.y * kUnit + expected.height;
+    }
+  }
+  if (const uint64_t parent = parentOf(newcomer, state)) track.parents.push_back(parent);
+  track.stillX = track.originX = track.learntX = track.x;
+  track.stillFoot = track.originFoot = track.learntFoot = track.foot;
+  track.stillSize = track.size;
+  track.look = newcomer.appearance;
+  track.isFromBorder = newcomer.isAtBorder || state.showsMovers;
+  track.isSeen = true;
+  track.hits = 1;
+  track.ageFrames = 1;
+  state.tracks.push_back(std::move(track));
+}
+
+}  // namespace
+
+void Returns::settle(const GroupGrid& e, const Encounters& encounters, Newcomers& newcomers,
+                     TrackerState& state) {
+  const std::vector<Newcomer>& list = newcomers.list();
+  std::vector<int>& trackOf = newcomers.tracks();
+  missing_.clear();
+  for (size_t i = 0; i < state.tracks.size(); ++i)
+    if (!state.tracks[i].isSeen) missing_.push_back(i);
+  costs_.assign(missing_.size() * list.size(), kForbidden);
+  for (size_t m = 0; m < missing_.size(); ++m)
+    for (size_t n = 0; n < list.size(); ++n)
+      if (list[n].cells > 0)
+        costs_[m * list.size() + n] =
+            costOf(e, state.tracks[missing_[m]], list[n], encounters, state);
+  assignment_.solve(costs_, static_cast<int>(missing_.size()), static_cast<int>(list.size()),
+                    state.numbers.identity.leaveOut.whole());
+  trackOf.assign(list.size(), -1);
+  for (size_t m = 0; m < missing_.size(); ++m) {
+    const int n = assignment_.columnOf(static_cast<int>(m));
+    if (n < 0) continue;
+    comeBack(e, list[static_cast<size_t>(n)], state, state.tracks[missing_[m]]);
+    trackOf[static_cast<size_t>(n)] = static_cast<int>(missing_[m]);
+  }
+  for (size_t n = 0; n < list.size(); ++n) {
+    if (list[n].cells == 0 || trackOf[n] >= 0 || state.tracks.size() >= kMaxTracks) continue;
+    trackOf[n] = static_cast<int>(state.tracks.size());
+    begin(list[n], state);
+  }
+  newcomers.giveCells(e, state);
+}
+
+/// 0 … 2000, or kForbidden: how unlikely it is that the newcomer is the track that is missing.
+int64_t Returns::costOf(const GroupGrid& e, const Track& track, const Newcomer& newcomer,
+                        const Encounters& encounters, const TrackerState& state) {
+  const int64_t x = (2 * int64_t{newcomer.box.x} + newcomer.box.width) * kUnit / 2;
+  const int64_t foot = int64_t{newcomer.box.bottom()} * kUnit;
+  const int64_t dx = x - track.x, dy = foot - track.foot;
+  const uint32_t far = integerSqrt(static_cast<uint64_t>(dx * dx + dy * dy));
+  const Numbers::Identity& n = state.numbers.identity;
+  const int64_t growth = n.gateGrowth.of(track.size.height * (track.unseenNs / 1'000'000)) / 1000;
+  const int64_t gate = std::max<int64_t>(1, n.gate.of(track.size.height) + growth);
+  if (far > gate) return kForbidden;
+  if (state.isFaithful(track) && int64_t{newcomer.box.width} * kUnit < n.part * track.size.width)
+    return recognise(e, track, newcomer, state) ? 1000 * int64_t{far} / gate : kForbidden;
+  const int64_t height = int64_t{newcomer.box.height} * kUnit;
+  if (!newcomer.isAtBorder &&
+      (height < n.leastHeight * track.size.height || height > n.mostHeight * track.size.height))
+    return kForbidden;
+  const int64_t alike = state.weighed(likeness(track, newcomer, encounters, state));
+  if (track.isConfirmed && alike < n.alike * kFullMatch) return kForbidden;
+  return 1000 * int64_t{far} / gate + 1000 - 1000 * alike / kFullMatch;
+}
+
+/// Where a track's lower edge has its middle, in 1/16 px, if a newcomer is its left or right part.
+std::optional<Point> Returns::recognise(const GroupGrid& e, const Track& track,
+                                        const Newcomer& newcomer, const TrackerState& state) {
+  if (!state.isFaithful(track) || !e.picture) return {};
+  const Size size = track.portrait.sizePx;
+  const PortraitScene scene{e, *e.picture, {}};
+  const Numbers::Likeness& n = state.numbers.likeness;
+  std::optional<Point> best;
+  uint32_t most = 0;
+  for (const int x : {newcomer.box.x, newcomer.box.right() - size.width}) {
+    const Point corner{x, newcomer.box.bottom() - size.height};
+    const PortraitMatch match =
+        findPortrait(track.portrait, scene,
+                     {corner, {4, 4}, static_cast<int>(n.farFrom.whole()), {}}, scratch_, n);
+    if (match.agreeing < n.sliver * match.samples || match.agreeing < n.sliverAgreeing * match.seen)
+      continue;
+    if (match.agreeing <= most) continue;
+    most = match.agreeing;
+    best = placeOfMatch(track, corner, match);
+  }
+  return best;
+}
+
+void Returns::comeBack(const GroupGrid& e, const Newcomer& newcomer, const TrackerState& state,
+                       Track& track) {
+  // What comes out from behind something shows a part first.
+  const bool isPart = track.centreSamples > 0 &&
+                      newcomer.box.width * kUnit < state.numbers.identity.part * track.size.width;
+  Place place{(2 * int64_t{newcomer.box.x} + newcomer.box.width) * kUnit / 2,
+              int64_t{newcomer.box.bottom()} * kUnit};
+  if (isPart) place = placeOfPart(track, newcomer.box, state.frame);
+  if (const auto recognised = recognise(e, track, newcomer, state); isPart && recognised)
+    place = {recognised->x, recognised->y};
+  const int64_t x = place.x, foot = place.foot;
+  const int64_t sinceUs = std::max<int64_t>(track.unseenNs / 1000, 1000);
+  if (track.hits <= 2) {
+    track.speedX += static_cast<int32_t>((x - track.x) * 1'000'000 / sinceUs);
+    track.speedY += static_cast<int32_t>((foot - track.foot) * 1'000'000 / sinceUs);
+  }
+  track.x = static_cast<int32_t>(x);
+  track.foot = static_cast<int32_t>(foot);
+  track.isSeen = true;
+  track.unseenNs = 0;
+  countUp(track.hits);
+}
+
+}  // namespace rg::objects

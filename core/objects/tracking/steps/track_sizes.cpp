@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "core/objects/tracking/steps/track_sizes.hpp"
+
+#include "core/base/pixel.hpp"
+#include "core/base/time/frame_count.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace rg::objects {
+namespace {
+
+constexpr int kUnit = kPositionUnit;
+
+int32_t mix(int32_t old, int64_t fresh, int64_t oldWeight) {
+  return static_cast<int32_t>(divideRounded(old * oldWeight + fresh, oldWeight + 1));
+}
+
+/// Mixes in what is seen of a track that is seen whole.
+void mixSize(const Sighting& s, const TrackerState& state, Track& track) {
+  const Numbers::Sizes& n = state.numbers.sizes;
+  const Number samples = state.isRigid(track)      ? n.rigidSamples
+                         : state.scale.isUniform() ? n.uniformSamples
+                                                   : n.otherSamples;
+  const int64_t known = std::min<int64_t>(track.sizeSamples, samples.whole());
+  const int64_t weight = state.scale.isUniform() ? std::max(known, n.otherSamples.whole()) : known;
+  const auto share = [](int64_t seen, int64_t usual) {
+    return std::abs(seen * kUnit - usual) * 256 / std::max<int64_t>(usual, 1);
+  };
+  const int64_t change =
+      share(s.box.width, track.size.width) + share(s.box.height, track.size.height);
+  track.sway =
+      static_cast<uint16_t>(mix(track.sway, std::min<int64_t>(change, 256), n.swaySamples.whole()));
+  track.size.width = mix(track.size.width, int64_t{s.box.width} * kUnit, weight);
+  track.size.height = mix(track.size.height, int64_t{s.box.height} * kUnit, weight);
+  countUp(track.sizeSamples);
+  if (s.boxCells > 0) {
+    const int64_t fill = std::clamp<int64_t>(int64_t{s.cells} * 256 / s.boxCells, 64, 256);
+    track.fill = static_cast<uint16_t>(mix(track.fill, fill, n.swaySamples.whole()));
+  }
+}
+
+}  // namespace
+
+void fitSizeToScene(const TrackerState& state, Track& track) {
+  if (!state.scale.isUniform() || state.isFaithful(track)) return;
+  const Extent usual = state.scale.at(track.foot / kUnit);
+  const auto limit = [](int32_t& value, int64_t expected, Number least, Number most) {
+    value = static_cast<int32_t>(std::clamp<int64_t>(value, least.of(expected), most.of(expected)));
+  };
+  const Numbers::Sizes& n = state.numbers.sizes;
+  limit(track.size.height, usual.height, n.uniformHeightLeast, n.uniformHeightMost);
+  limit(track.size.width, usual.width, n.uniformWidthLeast, n.uniformWidthMost);
+}
+
+void learnSize(size_t index, int64_t stepNs, const GroupGrid& e, TrackerState& state) {
+  Track& track = state.tracks[index];
+  const Sighting& s = state.sightings[index];
+  if (track.isSeen && s.isSole) track.apartNs += stepNs;
+  if (track.isSeen) track.seenNs += stepNs;
+  track.partedNs = s.isParted ? track.partedNs + stepNs : 0;
+  const Box frame = boundsOf(e.frame);
+  const bool isCut = s.box.x <= frame.x || s.box.y <= frame.y || s.box.right() >= frame.right() ||
+                     s.box.bottom() >= frame.bottom();
+  if (!s.isWhole || !track.isSeen) return;
+  const Numbers::Sizes& n = state.numbers.sizes;
+  const auto isOtherThan = [&](int px, int64_t size) {
+    return px * kUnit < n.least * size || px * kUnit > n.most * size;
+  };
+  const Extent& size = track.size;
+  const bool isOther =
+      isOtherThan(s.box.width, size.width) || isOtherThan(s.box.height, size.height);
+  // Nothing says where it ends beside somebody else.
+  const bool isShared = !state.scale.isUniform() && !s.isSole;
+  if (isCut || isShared || (isOther && !state.isSizeKnown(track))) {
+    if (!state.isSizeKnown(track)) track.size = state.sizeOfPart(track, s.box);
+    return;
+  }
+  mixSize(s, state, track);
+}
+
+void learnScale(const GroupGrid& e, TrackerState& state) {
+  if (e.showsMovers) return;
+  for (size_t i = 0; i < state.sightings.size(); ++i) {
+    Track& track = state.tracks[i];
+    const int64_t dx = track.x - track.learntX, dy = track.foot - track.learntFoot;
+    const Numbers::Sizes& n = state.numbers.sizes;
+    const int64_t half =
+        (state.scale.isKnown() ? n.learnEvery : n.learnFirst).of(track.size.height);
+    if (!track.isConfirmed || !state.blobs.has(i) || dx * dx + dy * dy < half * half) continue;
+    const Box box = state.blobs.of(i).box;
+    if (box.x <= 0 || box.y <= 0 || box.right() >= e.grid.width || box.bottom() >= e.grid.height)
+      continue;
+    bool isAlone = true, isOneThing = true;
+    for (size_t j = 0; j < state.sightings.size(); ++j) {
+      if (j == i || !state.blobs.areTogether(j, i)) continue;
+      isAlone = false;
+      const Box mine = track.box(), other = state.tracks[j].box();
+      const int columns = std::min(mine.right(), other.right()) - std::max(mine.x, other.x);
+      isOneThing &= 2 * columns >= std::min(mine.width, other.width);
+    }
+    if (!isOneThing) continue;
+    track.learntX = track.x;
+    track.learntFoot = track.foot;
+    const int unit = e.stepPx * kUnit;
+    state.scale.learn(track.id, box.bottom() * e.stepPx,
+                      {isAlone ? box.width * unit : 0, box.height * unit});
+  }
+}
+
+}  // namespace rg::objects

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// How large tracks are, and what the scene learns from that.
+#pragma once
+
+#include "core/objects/tracking/tracker_state.hpp"
+
+#include <cstdint>
+
+namespace rg::objects {
+
+/// Where all things are of one size, a track that isn't was a part of one, or several at once: its
+/// box becomes a usual one, and what that leaves over becomes a newcomer.
+void fitSizeToScene(const TrackerState& state, Track& track);
+
+/// From a track that was seen whole.
+void learnSize(size_t index, int64_t stepNs, const GroupGrid& evidence, TrackerState& state);
+
+/// Every half height of a track's way the scene learns from the blob that the track is in, whatever
+/// tracks say of sizes: a wrong scale must not confirm itself. Blobs of several things side by side
+/// don't count; tracks above each other may be one thing that was taken apart. A row of the picture
+/// says nothing of sizes where the camera moves.
+void learnScale(const GroupGrid& evidence, TrackerState& state);
+
+}  // namespace rg::objects
