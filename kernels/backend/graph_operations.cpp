@@ -56,7 +56,7 @@ class GpuOperations final : public Cpu, private Dispatcher {
             {scratch().take<unsigned long long>(slots), numbers(slots)},
             numbers(slots),
             {numbers(most), numbers(most), numbers(most), numbers(most), numbers(offsets + 1),
-             numbers(scanScratchOf(offsets) + 1)},
+             numbers(scanScratchOf(offsets))},
             scratch().take<Arc>(most),
             numbers(1),
             labels.count};
