@@ -2,6 +2,9 @@
 // CUDA's calls beside launches: memory, copies, waiting. The host version (kernels/shim) does the
 // same with the host's memory, and can be told which call is to fail.
 //
+// A stream's queue (launch_queue.hpp) takes clears and copies on the device; before any other call
+// of a stream it must be empty.
+//
 // All of them throw DeviceError but where noexcept is said.
 #pragma once
 
@@ -27,8 +30,8 @@ namespace rg::gpu::runtime {
 /// For the calling thread's calls from then on.
 void choose(int device);
 
-[[nodiscard]] Stream makeStream();
-void endStream(Stream stream) noexcept;
+[[nodiscard]] CUstream_st* makeStream();
+void endStream(CUstream_st* stream) noexcept;
 
 /// Bytes of 0. What is released may still be in use by what the stream was given before.
 [[nodiscard]] void* allocate(size_t bytes, Stream stream);

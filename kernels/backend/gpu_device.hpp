@@ -7,7 +7,7 @@
 #include "kernels/backend/open_device.hpp"
 #include "kernels/backend/rooms.hpp"
 #include "kernels/backend/staging.hpp"
-#include "kernels/launch.hpp"
+#include "kernels/launch_queue.hpp"
 
 #include <cstddef>
 #include <memory>
@@ -26,16 +26,20 @@ class Lane {
   ~Lane();
   Lane(const Lane&) = delete;
   Lane& operator=(const Lane&) = delete;
-  [[nodiscard]] Stream stream() const { return stream_; }
+  [[nodiscard]] Stream stream() const { return {stream_, queue_.get()}; }
+  [[nodiscard]] const LaunchQueue& queue() const { return *queue_; }
   /// CUDA's calls go to the device that the calling thread has chosen last.
   /// Throws DeviceError, also where the device hangs.
   void enter() const;
+  /// From any thread.
+  void release(void* memory) const noexcept;
   /// Copies; after enter().
   [[nodiscard]] Staging& staging() { return *staging_; }
 
  private:
   int device_;
-  Stream stream_;
+  CUstream_st* stream_ = nullptr;
+  std::unique_ptr<LaunchQueue> queue_;
   std::unique_ptr<Staging> staging_;
 };
 

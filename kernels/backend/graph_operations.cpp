@@ -36,6 +36,7 @@ class GpuOperations final : public Cpu, private Dispatcher {
     const GraphView view = viewFor(labels);
     buildGraph({labels.ids.readOn(device()), count, on().readRed(*labels.picture)}, connectivity,
                view, stream());
+    letBegin();
     // Meanwhile.
     listRuns(labels, graph.runs);
     // As a plane has them.
