@@ -16,6 +16,7 @@ namespace rg::gpu {
 
 struct Command {
   enum class Kind : uint8_t { Kernel, Clear, Copy };
+  static constexpr size_t kMostArguments = 16;
   /// How the host runs a kernel in a device's place (kernels/shim); CUDA needs no such function.
   using HostCall = void (*)(const Launch& launch, const void* kernel, const std::byte* arguments);
 
@@ -38,6 +39,7 @@ template <class... Arguments>
 struct ArgumentPlaces {
   static_assert(((std::is_trivially_copyable_v<Arguments> && alignof(Arguments) <= 8) && ...));
   static constexpr size_t kCount = sizeof...(Arguments);
+  static_assert(kCount <= Command::kMostArguments);
   static constexpr size_t wordsOf(size_t bytes) { return (bytes + 7) / 8; }
   static constexpr size_t kWords = (wordsOf(sizeof(Arguments)) + ... + 0);
   static constexpr std::array<size_t, kCount + 1> kBytes = [] {
@@ -57,7 +59,8 @@ class CommandList {
     return reinterpret_cast<const std::byte*>(words_.data() + command.firstWord);
   }
   /// For CUDA's calls, which take places that they only read as places to change.
-  [[nodiscard]] std::vector<void*> placesOf(const Command& command) const;
+  using Places = std::array<void*, Command::kMostArguments>;
+  [[nodiscard]] Places placesOf(const Command& command) const;
 
   void clear() {
     commands_.clear();
@@ -66,14 +69,14 @@ class CommandList {
   template <class... Arguments>
   void addKernel(const Launch& launch, const void* kernel, Command::HostCall hostCall,
                  const Arguments&... arguments) {
-    using Places = ArgumentPlaces<Arguments...>;
+    using Taken = ArgumentPlaces<Arguments...>;
     const size_t first = words_.size();
-    words_.resize(first + Places::kWords);
+    words_.resize(first + Taken::kWords);
     size_t i = 0;
     auto* const bytes = reinterpret_cast<std::byte*>(words_.data() + first);
-    (std::memcpy(bytes + Places::kBytes[i++], &arguments, sizeof arguments), ...);
-    commands_.push_back({Command::Kind::Kernel, launch, kernel, hostCall, Places::kBytes.data(),
-                         Places::kCount, first});
+    (std::memcpy(bytes + Taken::kBytes[i++], &arguments, sizeof arguments), ...);
+    commands_.push_back({Command::Kind::Kernel, launch, kernel, hostCall, Taken::kBytes.data(),
+                         Taken::kCount, first});
   }
   void addClear(void* to, size_t bytes) {
     commands_.push_back({.kind = Command::Kind::Clear, .to = to, .bytes = bytes});

@@ -17,7 +17,7 @@ namespace runtime {
 namespace {
 
 /// CUDA reads the arguments where `places` tells.
-cudaKernelNodeParams kernelOf(const Command& command, std::vector<void*>& places) {
+cudaKernelNodeParams kernelOf(const Command& command, CommandList::Places& places) {
   const Extent &grid = command.launch.grid, &block = command.launch.block;
   cudaKernelNodeParams kernel{};
   kernel.func = const_cast<void*>(command.kernel);
@@ -43,7 +43,7 @@ cudaGraphNode_t add(const LaunchGraph& graph, const CommandList& list, const Com
   cudaGraphNode_t node = nullptr;
   switch (command.kind) {
     case Command::Kind::Kernel: {
-      std::vector<void*> places = list.placesOf(command);
+      CommandList::Places places = list.placesOf(command);
       const cudaKernelNodeParams kernel = kernelOf(command, places);
       check(cudaGraphAddKernelNode(&node, graph.graph, before, count, &kernel),
             "cudaGraphAddKernelNode");
@@ -73,7 +73,7 @@ void run(const CommandList& list, size_t index, Stream stream) {
   const Command& command = list[index];
   switch (command.kind) {
     case Command::Kind::Kernel: {
-      std::vector<void*> places = list.placesOf(command);
+      CommandList::Places places = list.placesOf(command);
       const cudaKernelNodeParams kernel = kernelOf(command, places);
       check(cudaLaunchKernel(command.kernel, kernel.gridDim, kernel.blockDim, places.data(), 0,
                              stream.handle),
@@ -103,7 +103,7 @@ void update(LaunchGraph& graph, const CommandList& list, size_t index) {
   const cudaGraphNode_t node = graph.nodes[index];
   switch (command.kind) {
     case Command::Kind::Kernel: {
-      std::vector<void*> places = list.placesOf(command);
+      CommandList::Places places = list.placesOf(command);
       const cudaKernelNodeParams kernel = kernelOf(command, places);
       check(cudaGraphExecKernelNodeSetParams(graph.launched, node, &kernel),
             "cudaGraphExecKernelNodeSetParams");

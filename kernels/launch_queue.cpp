@@ -16,10 +16,10 @@ uint64_t mixed(uint64_t hash, uint64_t value) {
 
 }  // namespace
 
-std::vector<void*> CommandList::placesOf(const Command& command) const {
-  std::vector<void*> places;
+CommandList::Places CommandList::placesOf(const Command& command) const {
+  Places places{};
   auto* const first = const_cast<std::byte*>(argumentsOf(command));
-  for (size_t i = 0; i < command.argumentCount; ++i) places.push_back(first + command.places[i]);
+  for (size_t i = 0; i < command.argumentCount; ++i) places[i] = first + command.places[i];
   return places;
 }
 
