@@ -40,6 +40,9 @@ void release(void* memory, Stream stream) noexcept;
 void clear(void* memory, size_t bytes, Stream stream);
 void copy(void* to, const void* from, size_t bytes, Stream stream);
 
+/// From memory of the same device that another context has allocated.
+void bring(void* to, const void* from, size_t bytes, Stream stream);
+
 /// Memory of the host that copies don't wait for.
 [[nodiscard]] void* allocateOnHost(size_t bytes);
 void releaseOnHost(void* memory) noexcept;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/base/memory/device.hpp"
+#include "core/base/memory/frame_reader.hpp"
 #include "kernels/backend/open_device.hpp"
 #include "kernels/backend/rooms.hpp"
 #include "kernels/backend/staging.hpp"
@@ -73,7 +74,7 @@ class Scratch {
 };
 
 /// Serves one stage, on one thread at a time.
-class GpuDevice final : public Device, public AllRooms {
+class GpuDevice final : public Device, public AllRooms, public FrameReader {
  public:
   GpuDevice(std::string name, std::shared_ptr<Lane> lane)
       : name_(std::move(name)), lane_(std::move(lane)), scratch_(lane_) {}
@@ -81,6 +82,7 @@ class GpuDevice final : public Device, public AllRooms {
   [[nodiscard]] std::string name() const override { return name_; }
   [[nodiscard]] const void* space() const override { return lane_.get(); }
   [[nodiscard]] std::unique_ptr<DeviceMemory> allocate(size_t bytes) override;
+  void load(const Frame& there, Picture& picture) override;
 
   [[nodiscard]] const std::shared_ptr<Lane>& lane() const { return lane_; }
   [[nodiscard]] Scratch& scratch() { return scratch_; }

@@ -109,6 +109,11 @@ void copy(void* to, const void* from, size_t bytes, Stream stream) {
   std::memcpy(to, from, bytes);
 }
 
+void bring(void* to, const void* from, size_t bytes, Stream) {
+  shim::call("bring");
+  std::memcpy(to, from, bytes);
+}
+
 void* allocateOnHost(size_t bytes) {
   shim::call("allocateOnHost");
   void* memory = ::operator new(bytes, kAlign);
