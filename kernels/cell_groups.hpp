@@ -26,7 +26,7 @@ struct GroupsView {
   uint32_t* of;       ///< The component of each cell, or kNoGroup.
   uint32_t* first;    ///< Of each component its first cell.
   uint32_t* numbers;  ///< A number more than cells: how many components there are stands last.
-  uint32_t* scratch;  ///< scanScratchOf(cells) + 1.
+  uint32_t* scratch;  ///< scanScratchOf(cells).
   uint32_t *parents, *areas;      ///< Of what is linked within a tile, by its first cell.
   uint32_t *wholes, *wholeAreas;  ///< The same of what is linked at all.
   PairTable pairs;                ///< slotsFor(mostBorders(cells)).

@@ -22,7 +22,7 @@ struct ComponentsView {
   uint32_t* numbers;    ///< mostRuns(): of a component's first run, its number.
   uint32_t* firstRun;   ///< A number more than words: runs that begin before each word.
   uint32_t* firstRoot;  ///< The same of components.
-  uint32_t* scratch;    ///< scanScratchOf(words) + 1.
+  uint32_t* scratch;    ///< scanScratchOf(words).
 };
 [[nodiscard]] constexpr int64_t mostRuns(Size size) {
   return int64_t{size.width + 1} / 2 * size.height;

@@ -14,7 +14,17 @@ struct CUstream_st;
 
 namespace rg::gpu {
 
-using Stream = CUstream_st*;
+class LaunchQueue;
+
+/// A stream of CUDA's, and the queue by which it gets its launches, if any.
+struct Stream {
+  CUstream_st* handle = nullptr;
+  LaunchQueue* queue = nullptr;
+
+  constexpr Stream(CUstream_st* stream = nullptr,  // NOLINT(google-explicit-constructor)
+                   LaunchQueue* by = nullptr)
+      : handle(stream), queue(by) {}
+};
 
 struct Extent {
   unsigned x = 1, y = 1, z = 1;

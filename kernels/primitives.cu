@@ -12,6 +12,7 @@ namespace {
 constexpr int kThreads = kReduceThreads, kEach = 4;
 constexpr int kChunk = kThreads * kEach;
 constexpr int kWarps = kReduceWarps;
+static_assert(kChunk % kThreads == 0 && kThreads == 256);  // A block of a list is in one chunk.
 
 /// Sums within each chunk, and the chunks' totals.
 __global__ void scanChunks(const uint32_t* numbers, int count, uint32_t* sums, uint32_t* totals) {
@@ -31,24 +32,16 @@ __global__ void scanChunks(const uint32_t* numbers, int count, uint32_t* sums, u
   if (threadIdx.x == 0) totals[blockIdx.x] = total;
 }
 
-/// One block, a chunk of threads after the other.
-__global__ void scanTotals(uint32_t* totals, int count) {
+/// Each block sums the totals of the chunks before its own once more: they are few, and a launch
+/// that does it for all blocks would take longer.
+__global__ void addTotals(const uint32_t* totals, int count, uint32_t* sums) {
   RG_SHARED(uint32_t, warpSums, kWarps);
-  uint32_t carried = 0;
-  for (int first = 0; first < count; first += kThreads) {
-    const int i = first + static_cast<int>(threadIdx.x);
-    uint32_t total = 0;
-    const uint32_t before = sumBefore(i < count ? totals[i] : 0, warpSums, total);
-    if (i < count) totals[i] = carried + before;
-    carried += total;
-  }
-  if (threadIdx.x == 0) totals[count] = carried;
-}
-
-__global__ void addTotals(const uint32_t* totals, int chunks, int count, uint32_t* sums) {
-  const int i = indexInGrid();
-  if (i < count) sums[i] += totals[i / kChunk];
-  if (i == count) sums[count] = totals[chunks];
+  const int i = indexInGrid(), chunk = i / kChunk;
+  uint32_t own = 0;
+  for (int k = static_cast<int>(threadIdx.x); k < chunk; k += kThreads) own += totals[k];
+  const uint32_t before = reduceBlock(own, warpSums, Total{});
+  if (i < count) sums[i] += before;
+  if (i == count - 1) sums[count] = before + totals[chunk];
 }
 
 }  // namespace
@@ -58,10 +51,8 @@ void scan(const uint32_t* numbers, int count, uint32_t* sums, uint32_t* scratch,
   const double bytes = 4.0 * count;
   start({"scanChunks", {static_cast<unsigned>(chunks), 1, 1}, {kThreads, 1, 1}, {2 * bytes, bytes}},
         stream, scanChunks, numbers, count, sums, scratch);
-  start({"scanTotals", {1, 1, 1}, {kThreads, 1, 1}, {8.0 * chunks, 4.0 * chunks}}, stream,
-        scanTotals, scratch, chunks);
-  start(launchOverList("addTotals", int64_t{count} + 1, {2 * bytes, bytes / 4}), stream, addTotals,
-        static_cast<const uint32_t*>(scratch), chunks, count, sums);
+  start(launchOverList("addTotals", count, {2 * bytes, bytes}), stream, addTotals,
+        static_cast<const uint32_t*>(scratch), count, sums);
 }
 
 }  // namespace rg::gpu

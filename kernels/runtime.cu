@@ -42,19 +42,19 @@ void choose(int device) {
   check(cudaSetDevice(device), "cudaSetDevice");
 }
 
-Stream makeStream() {
+CUstream_st* makeStream() {
   return made("cudaStreamCreateWithFlags", cudaStreamCreateWithFlags, cudaStreamNonBlocking);
 }
 
-void endStream(Stream stream) noexcept {
+void endStream(CUstream_st* stream) noexcept {
   (void)cudaStreamDestroy(stream);
 }
 
 void* allocate(size_t bytes, Stream stream) {
   void* memory = nullptr;
-  check(cudaMallocAsync(&memory, bytes, stream), "cudaMallocAsync");
+  check(cudaMallocAsync(&memory, bytes, stream.handle), "cudaMallocAsync");
   try {
-    gpu::clear(memory, bytes, stream);
+    runClear(memory, bytes, stream);
   } catch (...) {
     release(memory, stream);
     throw;
@@ -63,7 +63,7 @@ void* allocate(size_t bytes, Stream stream) {
 }
 
 void release(void* memory, Stream stream) noexcept {
-  (void)cudaFreeAsync(memory, stream);
+  (void)cudaFreeAsync(memory, stream.handle);
 }
 
 void clear(void* memory, size_t bytes, Stream stream) {
@@ -71,7 +71,12 @@ void clear(void* memory, size_t bytes, Stream stream) {
 }
 
 void copy(void* to, const void* from, size_t bytes, Stream stream) {
-  check(cudaMemcpyAsync(to, from, bytes, cudaMemcpyDeviceToDevice, stream), "copy");
+  if (stream.queue != nullptr) return stream.queue->addCopy(to, from, bytes);
+  check(cudaMemcpyAsync(to, from, bytes, cudaMemcpyDeviceToDevice, stream.handle), "copy");
+}
+
+void bring(void* to, const void* from, size_t bytes, Stream stream) {
+  check(cudaMemcpyAsync(to, from, bytes, cudaMemcpyDefault, stream.handle), "bring");
 }
 
 void* allocateOnHost(size_t bytes) {
@@ -85,11 +90,11 @@ void releaseOnHost(void* memory) noexcept {
 }
 
 void upload(void* to, const void* from, size_t bytes, Stream stream) {
-  check(cudaMemcpyAsync(to, from, bytes, cudaMemcpyHostToDevice, stream), "upload");
+  check(cudaMemcpyAsync(to, from, bytes, cudaMemcpyHostToDevice, stream.handle), "upload");
 }
 
 void download(void* to, const void* from, size_t bytes, Stream stream) {
-  check(cudaMemcpyAsync(to, from, bytes, cudaMemcpyDeviceToHost, stream), "download");
+  check(cudaMemcpyAsync(to, from, bytes, cudaMemcpyDeviceToHost, stream.handle), "download");
 }
 
 Event makeEvent() {
@@ -101,7 +106,7 @@ void endEvent(Event event) noexcept {
 }
 
 void record(Event event, Stream stream) {
-  check(cudaEventRecord(event, stream), "cudaEventRecord");
+  check(cudaEventRecord(event, stream.handle), "cudaEventRecord");
 }
 
 bool isDone(Event event) {

@@ -2,6 +2,9 @@
 // CUDA's calls beside launches: memory, copies, waiting. The host version (kernels/shim) does the
 // same with the host's memory, and can be told which call is to fail.
 //
+// A stream's queue (launch_queue.hpp) takes clears and copies on the device; before any other call
+// of a stream it must be empty.
+//
 // All of them throw DeviceError but where noexcept is said.
 #pragma once
 
@@ -27,8 +30,8 @@ namespace rg::gpu::runtime {
 /// For the calling thread's calls from then on.
 void choose(int device);
 
-[[nodiscard]] Stream makeStream();
-void endStream(Stream stream) noexcept;
+[[nodiscard]] CUstream_st* makeStream();
+void endStream(CUstream_st* stream) noexcept;
 
 /// Bytes of 0. What is released may still be in use by what the stream was given before.
 [[nodiscard]] void* allocate(size_t bytes, Stream stream);
@@ -36,6 +39,9 @@ void release(void* memory, Stream stream) noexcept;
 
 void clear(void* memory, size_t bytes, Stream stream);
 void copy(void* to, const void* from, size_t bytes, Stream stream);
+
+/// From memory of the same device that another context has allocated.
+void bring(void* to, const void* from, size_t bytes, Stream stream);
 
 /// Memory of the host that copies don't wait for.
 [[nodiscard]] void* allocateOnHost(size_t bytes);

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// The one place that starts kernels; for .cu files only.
+// The one place that starts kernels; for .cu files only. A stream that has a queue gets them later.
 #pragma once
 
 #include "core/base/memory/device.hpp"
 #include "kernels/device.hpp"
 #include "kernels/launch.hpp"
+#include "kernels/launch_queue.hpp"
 
+#include <cstddef>
 #include <string>
+#include <utility>
 
 namespace rg::gpu {
 
@@ -23,33 +26,68 @@ inline void check(cudaError_t code, const char* call) {
                     std::string(call) + ": " + cudaGetErrorString(code));
 }
 
-template <class... Parameters, class... Arguments>
-void start(const Launch& launch, Stream stream, void (*kernel)(Parameters...),
-           const Arguments&... arguments) {
+inline void runClear(void* memory, size_t bytes, Stream stream) {
+  check(cudaMemsetAsync(memory, 0, bytes, stream.handle), "clear");
+}
+
+template <class... Parameters>
+void runKernel(const Launch& launch, Stream stream, void (*kernel)(Parameters...),
+               const Parameters&... arguments) {
   const dim3 grid(launch.grid.x, launch.grid.y, launch.grid.z);
   const dim3 block(launch.block.x, launch.block.y, launch.block.z);
-  kernel<<<grid, block, 0, stream>>>(arguments...);
+  kernel<<<grid, block, 0, stream.handle>>>(arguments...);
   check(cudaGetLastError(), launch.name);
 }
 
-inline void clear(void* memory, size_t bytes, Stream stream) {
-  check(cudaMemsetAsync(memory, 0, bytes, stream), "clear");
+template <class... Parameters>
+constexpr Command::HostCall hostCallOf() {
+  return nullptr;
 }
 
 #else
 
-template <class... Parameters, class... Arguments>
-void start(const Launch& launch, Stream, void (*kernel)(Parameters...),
-           const Arguments&... arguments) {
-  shim::call(launch.name);
-  shim::run(launch, [&] { kernel(arguments...); });
-}
-
-inline void clear(void* memory, size_t bytes, Stream) {
+inline void runClear(void* memory, size_t bytes, Stream) {
   shim::call("clear");
   shim::clear(memory, bytes);
 }
 
+template <class... Parameters>
+void runKernel(const Launch& launch, Stream, void (*kernel)(Parameters...),
+               const Parameters&... arguments) {
+  shim::call(launch.name);
+  shim::run(launch, [&] { kernel(arguments...); });
+}
+
+/// Runs a kernel with arguments from a list of commands.
+template <class... Parameters>
+constexpr Command::HostCall hostCallOf() {
+  return [](const Launch& launch, const void* kernel, const std::byte* arguments) {
+    using Places = ArgumentPlaces<Parameters...>;
+    const auto call = [&]<size_t... I>(std::index_sequence<I...>) {
+      auto* const run = reinterpret_cast<void (*)(Parameters...)>(const_cast<void*>(kernel));
+      run(*reinterpret_cast<const Parameters*>(arguments + Places::kBytes[I])...);
+    };
+    shim::run(launch, [&] { call(std::index_sequence_for<Parameters...>{}); });
+  };
+}
+
 #endif
+
+inline void clear(void* memory, size_t bytes, Stream stream) {
+  if (stream.queue != nullptr)
+    stream.queue->addClear(memory, bytes);
+  else
+    runClear(memory, bytes, stream);
+}
+
+template <class... Parameters, class... Arguments>
+void start(const Launch& launch, Stream stream, void (*kernel)(Parameters...),
+           const Arguments&... arguments) {
+  if (stream.queue != nullptr)
+    stream.queue->addKernel<Parameters...>(launch, reinterpret_cast<const void*>(kernel),
+                                           hostCallOf<Parameters...>(), arguments...);
+  else
+    runKernel<Parameters...>(launch, stream, kernel, arguments...);
+}
 
 }  // namespace rg::gpu

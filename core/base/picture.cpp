@@ -88,12 +88,28 @@ Picture::Planes Picture::readOn(Device& device) const {
   return {red_.readOn(device), green_.readOn(device), blue_.readOn(device), luma};
 }
 
-void Picture::load(const Frame& frame, const Executor& executor) {
-  const Size size = frame.size();
-  isGrey_ = frame.layout().format == PixelFormat::Gray8;
+void Picture::resize(Size size, bool isGrey) {
+  isGrey_ = isGrey;
   luma_.resize(size);
   if (!isGrey_)
     for (Image<uint8_t>* plane : {&red_, &green_, &blue_}) plane->resize(size);
+}
+
+PicturePlanes Picture::writeOn(Device& device, Size size, bool isGrey) {
+  resize(size, isGrey);
+  if (isGrey) return {{}, {}, {}, luma_.writeOn(device)};
+  return {red_.writeOn(device), green_.writeOn(device), blue_.writeOn(device),
+          luma_.writeOn(device)};
+}
+
+void Picture::readOnHost() const {
+  luma_.readOnHost();
+  if (!isGrey_)
+    for (const Image<uint8_t>* plane : {&red_, &green_, &blue_}) plane->readOnHost();
+}
+
+void Picture::load(const Frame& frame, const Executor& executor) {
+  resize(frame.size(), frame.layout().format == PixelFormat::Gray8);
   for (Image<uint8_t>* plane : {&red_, &green_, &blue_, &luma_}) plane->writeOnHost();
   loadPlanes(frame, executor, {red_, green_, blue_, luma_});
 }

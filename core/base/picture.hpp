@@ -40,12 +40,20 @@ class Picture {
   };
   [[nodiscard]] Planes readOn(Device& device) const;
 
+  /// Planes of a size, all of whose pixels will be written on the device; a grey picture's are luma
+  /// alone. Throws DeviceError.
+  [[nodiscard]] PicturePlanes writeOn(Device& device, Size size, bool isGrey);
+  /// Fetches them. Throws DeviceError.
+  void readOnHost() const;
+
   /// Takes the frame's size and pixels (loadPlanes).
   void load(const Frame& frame, const Executor& executor);
   /// A grey picture of which all pixels will be written here.
   [[nodiscard]] Image<uint8_t>& writeGrey(Size size);
 
  private:
+  void resize(Size size, bool isGrey);
+
   bool isGrey_ = true;
   Image<uint8_t> red_, green_, blue_, luma_;
 };

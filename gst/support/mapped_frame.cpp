@@ -79,8 +79,8 @@ std::optional<FrameLayout> layoutOf(const GstVideoInfo& info) {
                      GST_VIDEO_INFO_IS_INTERLACED(&info) != FALSE};
 }
 
-MappedFrame::MappedFrame(GstBuffer* buffer, const GstVideoInfo& info)
-    : buffer_(buffer), frame_(check(info)) {}
+MappedFrame::MappedFrame(GstBuffer* buffer, const GstVideoInfo& info, guint flags)
+    : buffer_(buffer), flags_(flags), frame_(check(info)) {}
 
 MappedFrame::~MappedFrame() {
   for (size_t i = 0; i < mapCount_; ++i) gst_buffer_unmap(buffer_, &maps_[i]);
@@ -88,8 +88,9 @@ MappedFrame::~MappedFrame() {
 
 /// Maps the memories from one on; false where they can't be.
 bool MappedFrame::map(guint first, int count) {
+  const auto flags = static_cast<GstMapFlags>(flags_);
   const bool isMapped =
-      gst_buffer_map_range(buffer_, first, count, &maps_[mapCount_], GST_MAP_READ) != FALSE;
+      gst_buffer_map_range(buffer_, first, count, &maps_[mapCount_], flags) != FALSE;
   if (isMapped) ++mapCount_;
   return isMapped;
 }

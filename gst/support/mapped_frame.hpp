@@ -19,7 +19,9 @@ namespace rg {
 /// goes: frame() is an error where it points outside, or contradicts the caps.
 class MappedFrame {
  public:
-  MappedFrame(GstBuffer* buffer, const GstVideoInfo& info);
+  /// `flags`, of GstMapFlags and of the memory's own: reading. With the latter the frame's planes
+  /// may not be the host's.
+  MappedFrame(GstBuffer* buffer, const GstVideoInfo& info, guint flags = GST_MAP_READ);
   ~MappedFrame();
   MappedFrame(const MappedFrame&) = delete;
   MappedFrame& operator=(const MappedFrame&) = delete;
@@ -32,6 +34,7 @@ class MappedFrame {
   [[nodiscard]] bool map(guint first, int count);
 
   GstBuffer* buffer_;
+  guint flags_;
   std::array<GstMapInfo, Frame::kMaxPlanes> maps_;
   size_t mapCount_ = 0;
   Result<Frame> frame_;  ///< Made last: it needs the maps.

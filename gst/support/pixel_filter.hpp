@@ -2,10 +2,12 @@
 // What the stage elements share that look at pixels.
 #pragma once
 
+#include "core/base/memory/frame_reader.hpp"
 #include "core/base/memory/pool.hpp"
 #include "core/base/picture.hpp"
 #include "core/base/reduced_frame.hpp"
 #include "core/base/result.hpp"
+#include "gst/support/cuda_memory.hpp"
 #include "gst/support/mapped_frame.hpp"
 #include "gst/support/stage_filter.hpp"
 
@@ -46,7 +48,9 @@ class PixelFilter : public StageOwner<Settings, Stage> {
   using StageOwner<Settings, Stage>::StageOwner;
 
   bool start() override {
-    analysisHeight_ = this->currentSettings().analysisHeight;
+    const Settings settings = this->currentSettings();
+    analysisHeight_ = settings.analysisHeight;
+    if constexpr (kHasBackend<Settings>) deviceId_ = settings.deviceId;
     hasToldInterlaced_ = false;
     return StageOwner<Settings, Stage>::start();
   }
@@ -66,18 +70,15 @@ class PixelFilter : public StageOwner<Settings, Stage> {
   }
   /// Maps, checks and converts a frame; counts those whose memory can't be believed.
   [[nodiscard]] Result<std::shared_ptr<const Picture>> load(const FilterFrame& frame) {
+    auto picture = pool_.take();
+    if (loadOnDevice(frame, *picture)) return std::shared_ptr<const Picture>(std::move(picture));
     const MappedFrame mapped(frame.buffer, frame.info);
     if (!mapped.frame()) {
       const std::lock_guard lock(this->settingsMutex());
       ++this->settings_.badBuffers;
       return mapped.frame().error();
     }
-    if (mapped.frame()->layout().isInterlaced && !std::exchange(hasToldInterlaced_, true))
-      this->postWarning(
-          "The video is interlaced: of each frame only the lines of the field with the top line "
-          "are looked at, so that what moves is no comb. Put deinterlace in front of this element "
-          "for all lines.");
-    auto picture = pool_.take();
+    tellInterlaced(*mapped.frame());
     const Size size = this->analysedSize(frame);
     if (size == mapped.frame()->size()) {
       picture->load(*mapped.frame(), this->executor());
@@ -89,7 +90,35 @@ class PixelFilter : public StageOwner<Settings, Stage> {
   }
 
  private:
+  /// Whether the frame lies on the stage's device, and was read there. The host reads what can't be
+  /// read there.
+  bool loadOnDevice(const FilterFrame& frame, Picture& picture) {
+    Device* device = this->device();
+    auto* reader = dynamic_cast<FrameReader*>(device);
+    if (reader == nullptr || analysedSize(frame) != sizeOf(frame)) return false;
+    const auto flags = cudaMapOf(frame.buffer, deviceId_);
+    if (!flags) return false;
+    const MappedFrame mapped(frame.buffer, frame.info, *flags);
+    if (!mapped.frame()) return false;
+    tellInterlaced(*mapped.frame());
+    try {
+      reader->load(*mapped.frame(), picture);
+      return true;
+    } catch (const DeviceError& error) {
+      device->fail(error);
+      return false;
+    }
+  }
+  void tellInterlaced(const Frame& frame) {
+    if (frame.layout().isInterlaced && !std::exchange(hasToldInterlaced_, true))
+      this->postWarning(
+          "The video is interlaced: of each frame only the lines of the field with the top line "
+          "are looked at, so that what moves is no comb. Put deinterlace in front of this element "
+          "for all lines.");
+  }
+
   int analysisHeight_ = 0;          ///< As at the start.
+  int deviceId_ = 0;                ///< The same.
   bool hasToldInterlaced_ = false;  ///< Since the start.
   ReducedFrame reduced_;
   Pool<Picture> pool_;

@@ -187,6 +187,10 @@ class StageOwner : public StageFilter {
   [[nodiscard]] Settings currentSettings() { return snapshot(settings_); }
   [[nodiscard]] Stage& stage() { return *stage_; }
   [[nodiscard]] const Executor& executor() const { return *executor_; }
+  /// While it works; null: the CPU.
+  [[nodiscard]] Device* device() const {
+    return device_ && device_->isUp() ? device_.get() : nullptr;
+  }
   /// What the end of a device has cost, for the warning.
   [[nodiscard]] virtual const char* lossOfDevice() const { return " where it was."; }
 

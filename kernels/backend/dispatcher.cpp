@@ -21,7 +21,7 @@ ComponentsView Dispatcher::components(Size size) const {
           scratch().take<uint32_t>(runs),
           scratch().take<uint32_t>(words + 1),
           scratch().take<uint32_t>(words + 1),
-          scratch().take<uint32_t>(scanScratchOf(words) + 1)};
+          scratch().take<uint32_t>(scanScratchOf(words))};
 }
 
 BitTarget Dispatcher::scratchMask(Size size) const {

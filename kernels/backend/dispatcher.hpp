@@ -87,6 +87,8 @@ class Dispatcher {
   [[nodiscard]] const Access& on() const { return access_; }
   [[nodiscard]] Scratch& scratch() const { return device_.scratch(); }
   [[nodiscard]] Stream stream() const { return device_.lane()->stream(); }
+  /// Lets the device begin with what it was given, for whoever does something else meanwhile.
+  void letBegin() const { submit(stream()); }
   [[nodiscard]] ComponentsView components(Size size) const;
   /// In scratch, contents undefined.
   [[nodiscard]] BitTarget scratchMask(Size size) const;

@@ -12,7 +12,7 @@ class GpuMemory final : public DeviceMemory {
  public:
   GpuMemory(std::shared_ptr<Lane> lane, size_t bytes)
       : lane_(std::move(lane)), memory_(runtime::allocate(bytes + kBehind, lane_->stream())) {}
-  ~GpuMemory() override { runtime::release(memory_, lane_->stream()); }
+  ~GpuMemory() override { lane_->release(memory_); }
   GpuMemory(const GpuMemory&) = delete;
   GpuMemory& operator=(const GpuMemory&) = delete;
 
@@ -38,11 +38,13 @@ class GpuMemory final : public DeviceMemory {
 Lane::Lane(int device) : device_(device) {
   enter();
   stream_ = runtime::makeStream();
-  staging_ = std::make_unique<Staging>(stream_);
+  queue_ = std::make_unique<LaunchQueue>(stream_);
+  staging_ = std::make_unique<Staging>(stream());
 }
 
 Lane::~Lane() {
   staging_.reset();
+  queue_.reset();
   runtime::endStream(stream_);
 }
 
@@ -51,16 +53,21 @@ void Lane::enter() const {
   runtime::choose(device_);
 }
 
+void Lane::release(void* memory) const noexcept {
+  queue_->submitQuietly();
+  runtime::release(memory, stream());
+}
+
 Scratch::~Scratch() {
   for (const Block& block : blocks_)
-    if (block.memory != nullptr) runtime::release(block.memory, lane_->stream());
+    if (block.memory != nullptr) lane_->release(block.memory);
 }
 
 void* Scratch::takeBytes(size_t bytes) {
   if (used_ == blocks_.size()) blocks_.push_back({nullptr, 0});
   Block& block = blocks_[used_];
   if (block.bytes < bytes) {
-    if (block.memory != nullptr) runtime::release(block.memory, lane_->stream());
+    if (block.memory != nullptr) lane_->release(block.memory);
     block = {nullptr, 0};
     block = {runtime::allocate(bytes, lane_->stream()), bytes};
   }

@@ -4,10 +4,11 @@
 #pragma once
 
 #include "core/base/memory/device.hpp"
+#include "core/base/memory/frame_reader.hpp"
 #include "kernels/backend/open_device.hpp"
 #include "kernels/backend/rooms.hpp"
 #include "kernels/backend/staging.hpp"
-#include "kernels/launch.hpp"
+#include "kernels/launch_queue.hpp"
 
 #include <cstddef>
 #include <memory>
@@ -26,16 +27,20 @@ class Lane {
   ~Lane();
   Lane(const Lane&) = delete;
   Lane& operator=(const Lane&) = delete;
-  [[nodiscard]] Stream stream() const { return stream_; }
+  [[nodiscard]] Stream stream() const { return {stream_, queue_.get()}; }
+  [[nodiscard]] const LaunchQueue& queue() const { return *queue_; }
   /// CUDA's calls go to the device that the calling thread has chosen last.
   /// Throws DeviceError, also where the device hangs.
   void enter() const;
+  /// From any thread.
+  void release(void* memory) const noexcept;
   /// Copies; after enter().
   [[nodiscard]] Staging& staging() { return *staging_; }
 
  private:
   int device_;
-  Stream stream_;
+  CUstream_st* stream_ = nullptr;
+  std::unique_ptr<LaunchQueue> queue_;
   std::unique_ptr<Staging> staging_;
 };
 
@@ -69,7 +74,7 @@ class Scratch {
 };
 
 /// Serves one stage, on one thread at a time.
-class GpuDevice final : public Device, public AllRooms {
+class GpuDevice final : public Device, public AllRooms, public FrameReader {
  public:
   GpuDevice(std::string name, std::shared_ptr<Lane> lane)
       : name_(std::move(name)), lane_(std::move(lane)), scratch_(lane_) {}
@@ -77,6 +82,7 @@ class GpuDevice final : public Device, public AllRooms {
   [[nodiscard]] std::string name() const override { return name_; }
   [[nodiscard]] const void* space() const override { return lane_.get(); }
   [[nodiscard]] std::unique_ptr<DeviceMemory> allocate(size_t bytes) override;
+  void load(const Frame& there, Picture& picture) override;
 
   [[nodiscard]] const std::shared_ptr<Lane>& lane() const { return lane_; }
   [[nodiscard]] Scratch& scratch() { return scratch_; }

@@ -36,6 +36,7 @@ class GpuOperations final : public Cpu, private Dispatcher {
     const GraphView view = viewFor(labels);
     buildGraph({labels.ids.readOn(device()), count, on().readRed(*labels.picture)}, connectivity,
                view, stream());
+    letBegin();
     // Meanwhile.
     listRuns(labels, graph.runs);
     // As a plane has them.
@@ -56,7 +57,7 @@ class GpuOperations final : public Cpu, private Dispatcher {
             {scratch().take<unsigned long long>(slots), numbers(slots)},
             numbers(slots),
             {numbers(most), numbers(most), numbers(most), numbers(most), numbers(offsets + 1),
-             numbers(scanScratchOf(offsets) + 1)},
+             numbers(scanScratchOf(offsets))},
             scratch().take<Arc>(most),
             numbers(1),
             labels.count};

@@ -110,7 +110,10 @@ class GpuOperations final : public Cpu, private Dispatcher {
                            scratch().take<int32_t>(count),
                            scratch().take<rg::motion::MotionBelief>(count),
                            scratch().take<rg::motion::MotionPrior>(count)};
+    auto* refined = scratch().take<RegionMotion>(count);
+    send(refined, motion.data(), motion.size_bytes());
     fitAlone(regions, planes, seen, stream());
+    letBegin();
     // Meanwhile.
     neighbours_.find(graph);
     const bool hasAny = !neighbours_.list().empty();
@@ -118,8 +121,6 @@ class GpuOperations final : public Cpu, private Dispatcher {
                                     hasAny ? sent(neighbours_.list()) : nullptr};
     findConsensus(neighbours, seen, scratch().take<rg::motion::MotionBelief>(count), count,
                   stream());
-    auto* refined = scratch().take<RegionMotion>(count);
-    send(refined, motion.data(), motion.size_bytes());
     fitTogether(regions, planes, seen.priors, refined, stream());
     fetchLists(FetchedList<RegionMotion>{refined, static_cast<uint32_t>(count), motions_});
   }

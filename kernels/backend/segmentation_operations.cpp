@@ -204,7 +204,7 @@ class GpuOperations final : public Cpu, private Dispatcher {
     return {numbers(cells),
             numbers(cells),
             numbers(cells + 1),
-            numbers(scanScratchOf(static_cast<int>(cells)) + 1),
+            numbers(scanScratchOf(static_cast<int>(cells))),
             numbers(cells),
             numbers(cells),
             numbers(cells),

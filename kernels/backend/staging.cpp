@@ -29,6 +29,7 @@ Staging::~Staging() {
 }
 
 void Staging::upload(void* to, const void* from, size_t bytes) {
+  submit(stream_);
   Block& block = take(bytes);
   std::memcpy(block.memory, from, bytes);
   runtime::upload(to, block.memory, bytes, stream_);
@@ -37,6 +38,7 @@ void Staging::upload(void* to, const void* from, size_t bytes) {
 }
 
 void Staging::download(std::initializer_list<Download> copies) {
+  submit(stream_);
   std::array<Block*, kMostTogether> blocks{};
   size_t begun = 0;
   for (const Download& copy : copies) {

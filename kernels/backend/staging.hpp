@@ -4,6 +4,7 @@
 // hangs would hang the caller.
 #pragma once
 
+#include "kernels/launch_queue.hpp"
 #include "kernels/runtime.hpp"
 
 #include <atomic>

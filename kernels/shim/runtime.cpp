@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "kernels/runtime.hpp"
 
+#include "kernels/launch_queue.hpp"
 #include "kernels/shim/faults.hpp"
 
 #include <algorithm>
@@ -47,7 +48,8 @@ int64_t shim::countHostAllocations() {
 
 void shim::call(const char* name) {
   const std::lock_guard lock(mutex);
-  const bool isPlanned = planned && planned->call == calls;
+  const bool isPlanned =
+      planned && calls >= planned->call && calls - planned->call < planned->times;
   ++calls;
   if (isPlanned && planned->hangs) hangs = true;
   if (hangs) return;
@@ -75,12 +77,12 @@ void choose(int) {
   shim::call("choose");
 }
 
-Stream makeStream() {
+CUstream_st* makeStream() {
   shim::call("makeStream");
   return nullptr;
 }
 
-void endStream(Stream) noexcept {}
+void endStream(CUstream_st*) noexcept {}
 
 void* allocate(size_t bytes, Stream) {
   shim::call("allocate");
@@ -95,13 +97,20 @@ void release(void* memory, Stream) noexcept {
   ::operator delete(memory, kAlign);
 }
 
-void clear(void* memory, size_t bytes, Stream) {
+void clear(void* memory, size_t bytes, Stream stream) {
+  if (stream.queue != nullptr) return stream.queue->addClear(memory, bytes);
   shim::call("clear");
   std::memset(memory, 0, bytes);
 }
 
-void copy(void* to, const void* from, size_t bytes, Stream) {
+void copy(void* to, const void* from, size_t bytes, Stream stream) {
+  if (stream.queue != nullptr) return stream.queue->addCopy(to, from, bytes);
   shim::call("copy");
+  std::memcpy(to, from, bytes);
+}
+
+void bring(void* to, const void* from, size_t bytes, Stream) {
+  shim::call("bring");
   std::memcpy(to, from, bytes);
 }
 

@@ -2,6 +2,7 @@
 // One scene in every format, in padded rows, in memory of its own for each plane, and in fields:
 // what the stages say of it is the same wherever the samples are.
 #include "gst/meta/result_meta.hpp"
+#include "gst/support/cuda_memory.hpp"
 #include "tests/support/busy_scene.hpp"
 
 #include <gst/allocators/gstdmabuf.h>
@@ -270,6 +271,18 @@ TEST(CudaMemory, SaysWhatOtherMemorySays) {
     EXPECT_TRUE(gst_caps_features_contains(gst_caps_get_features(passed, 0), feature.c_str()));
     gst_caps_unref(passed);
   }
+}
+
+/// With libgstcuda or without, and in any case without a driver, whose absence ends the process in
+/// most of its functions.
+TEST(CudaMemory, IsWhatCudaHasAllocatedOnly) {
+  const DmaBufs dmaBufs;
+  const Caps caps{"NV12", 96, 64};
+  BufferPtr plain = colourFrame(caps, 0);
+  EXPECT_FALSE(cudaMapOf(plain.get(), 0));
+  EXPECT_FALSE(cudaMapOf(dmaBufs.share(caps, plain.get(), 1).get(), 0));
+  EXPECT_FALSE(cudaMapOf(dmaBufs.share(caps, plain.get(), 2).get(), 0));
+  EXPECT_FALSE(cudaMapOf(BufferPtr(gst_buffer_new()).get(), 0));
 }
 
 TEST(DmaBuf, ThatCantBeMappedOrIsShortIsCountedAndTheStreamGoesOn) {

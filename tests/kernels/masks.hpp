@@ -68,7 +68,7 @@ struct DeviceComponents {
       numbersOfRuns->assign(most, 0xA5A5A5A5);
     for (std::vector<uint32_t>* ofWords : {&firstRun, &firstRoot})
       ofWords->assign(static_cast<size_t>(words) + 1, 0xA5A5A5A5);
-    scratch.assign(static_cast<size_t>(gpu::scanScratchOf(words)) + 1, 0xA5A5A5A5);
+    scratch.assign(static_cast<size_t>(gpu::scanScratchOf(words)), 0xA5A5A5A5);
   }
   gpu::ComponentsView view() {
     return {runs.data(),     list.data(),      parents.data(), numbers.data(),

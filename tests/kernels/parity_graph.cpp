@@ -20,7 +20,7 @@ struct DeviceSort {
       list->assign(capacity, 0xA5A5A5A5);
     const int sums = gpu::sortOffsetsOf(static_cast<int>(capacity));
     offsets.assign(static_cast<size_t>(sums) + 1, 0xA5A5A5A5);
-    scratch.assign(static_cast<size_t>(gpu::scanScratchOf(sums)) + 1, 0xA5A5A5A5);
+    scratch.assign(static_cast<size_t>(gpu::scanScratchOf(sums)), 0xA5A5A5A5);
   }
   gpu::SortView view() {
     return {keys.data(),        values.data(),  otherKeys.data(),

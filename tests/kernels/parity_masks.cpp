@@ -232,7 +232,7 @@ TEST(Primitives, AScanSumsWhatStandsBefore) {
       numbers[i] = test::hashOf(static_cast<int>(i), 0, 1);
     std::vector<uint32_t> expected(sums.size());
     std::partial_sum(numbers.begin(), numbers.end(), expected.begin() + 1);
-    std::vector<uint32_t> scratch(static_cast<size_t>(gpu::scanScratchOf(count)) + 1);
+    std::vector<uint32_t> scratch(static_cast<size_t>(gpu::scanScratchOf(count)));
     gpu::scan(numbers.data(), count, sums.data(), scratch.data(), nullptr);
     ASSERT_EQ(sums, expected) << count;
     sums.assign(numbers.begin(), numbers.end());

@@ -56,7 +56,7 @@ struct DeviceGroups {
     for (Numbers* list : {&of, &first, &parents, &areas, &wholes, &wholeAreas})
       list->assign(count, 0xA5A5A5A5);
     numbers.assign(count + 1, 0xA5A5A5A5);
-    scratch.assign(static_cast<size_t>(gpu::scanScratchOf(static_cast<int>(count))) + 1, 0);
+    scratch.assign(static_cast<size_t>(gpu::scanScratchOf(static_cast<int>(count))), 0);
   }
   gpu::segmentation::GroupsView view() {
     return {of.data(),      first.data(),

@@ -3,17 +3,22 @@
 #include "kernels/backend/staging.hpp"
 #include "kernels/shim/block.hpp"
 #include "kernels/shim/faults.hpp"
+#include "tests/kernels/marked_memory.hpp"
 #include "tests/support/busy_scene.hpp"
 
 #include <gst/gst.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstring>
 #include <iterator>
 #include <memory>
 #include <optional>
 #include <random>
 #include <set>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace rg::testing {
@@ -216,6 +221,72 @@ TEST_F(ElementBackend, ABinsStagesShareADevice) {
   }
   gst_object_unref(bin);
   EXPECT_EQ(shared.size(), 1u);
+}
+
+constexpr const char* kDeviceFeature = "(memory:CUDAMemory)";
+
+/// What all stages say of frames that lie on the device.
+std::vector<std::string> tellOfDevice(Chain& chain, std::optional<Fault> fault) {
+  EXPECT_TRUE(sendCaps(chain, "video/x-raw" + std::string(kDeviceFeature) +
+                                  chain.caps().text().substr(strlen("video/x-raw"))));
+  Story story;
+  std::vector<std::string> told;
+  for (int i = 0; i < kFrames; ++i) {
+    BufferPtr frame = busyFrame(chain.caps(), i);
+    markAsDeviceMemory(frame.get());
+    if (i == kFaulty) gpu::shim::plan(fault);
+    const BufferPtr out = chain.pass(std::move(frame));
+    EXPECT_TRUE(out) << "frame " << i << " is lost";
+    told.push_back(out ? story.tell(out.get()) : "");
+  }
+  return told;
+}
+
+int64_t countLaunches(std::string_view kernel) {
+  const auto& launches = gpu::shim::launches();
+  return std::count_if(launches.begin(), launches.end(),
+                       [&](const gpu::Launch& launch) { return kernel == launch.name; });
+}
+
+TEST_F(ElementBackend, FramesOnTheDeviceAreReadThere) {
+  for (const auto& [format, kernel] :
+       {std::pair("NV12", "loadYuv"), {"P010_10LE", "loadYuv"}, {"BGRx", "loadColours"}}) {
+    SCOPED_TRACE(format);
+    const Caps caps{format, 97, 71};
+    Chain cpu(stagesWith("cpu"), caps), gpu(stagesWith("cuda"), caps);
+    const auto expected = tellAll(cpu, std::nullopt);
+    gpu::shim::begin({});
+    EXPECT_EQ(tellOfDevice(gpu, std::nullopt), expected);
+    EXPECT_EQ(countLaunches(kernel), kFrames);
+    EXPECT_EQ(activeBackend(gpu), "cuda: host");
+    EXPECT_EQ(gpu.message(GST_MESSAGE_WARNING), nullptr);
+  }
+}
+
+/// By way of the host: those that are looked at smaller, and those of a stage on the CPU.
+TEST_F(ElementBackend, OtherFramesOfADeviceAreReadHere) {
+  for (const char* stages : {"bgremove training-frames=2 backend=cpu",
+                             "bgremove training-frames=2 backend=cuda analysis-height=40"}) {
+    SCOPED_TRACE(stages);
+    Chain here(stages, kCaps), there(stages, kCaps);
+    const auto expected = tellAll(here, std::nullopt);
+    gpu::shim::begin({});
+    EXPECT_EQ(tellOfDevice(there, std::nullopt), expected);
+    EXPECT_EQ(countLaunches("loadYuv"), 0);
+  }
+}
+
+/// The first calls of a frame are those that read it.
+TEST_F(ElementBackend, AFrameThatCantBeReadThereIsReadHere) {
+  Chain cpu(stagesWith("cpu"), kCaps);
+  const auto expected = tellAll(cpu, std::nullopt);
+  for (uint64_t call = 0; call < 12; ++call) {
+    SCOPED_TRACE("call " + std::to_string(call));
+    Chain gpu(stagesWith("cuda"), kCaps);
+    EXPECT_EQ(tellOfDevice(gpu, Fault{call}), expected);
+    EXPECT_EQ(activeBackend(gpu, "bgremove"), "cpu");
+    EXPECT_NE(gpu.complaint(GST_MESSAGE_WARNING).find("CUDA device failed"), std::string::npos);
+  }
 }
 
 /// The next start may be on another device.
