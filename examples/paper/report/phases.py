@@ -3,7 +3,7 @@
 
 CPU times are those of one core: others on the machine and threads don't count.
 What a GPU would take is modelled (tests/kernels/model.cpp): bytes over an H200's bandwidth, integer
-operations over its rate and 2 µs a launch. Nothing was measured on one. There is no kernel that
+operations over its rate, and the launches of CUDA graphs. Nothing was measured on one. There is no kernel that
 merges: mrfmerge's time on the CPU is added.
 """
 from . import plots, published
@@ -16,7 +16,7 @@ NAMES = {'hsvsegment': 'colour segmentation', 'srg': 'region graph', 'prmmotion'
          'mrfmerge': 'MRF merging'}
 MODELLED = ('hsvsegment', 'srg', 'prmmotion')
 NOTE = ('GPU figures are modelled, not measured: memory traffic and operations of each launch over '
-        'an H200\'s data sheet, 2 µs a launch (no CUDA graph), and the measured CPU time of MRF '
+        'an H200\'s data sheet, launches as CUDA graphs, and the measured CPU time of MRF '
         'merging, which has no kernel.')
 
 

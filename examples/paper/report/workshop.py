@@ -56,12 +56,10 @@ class Workshop:
     def model(self, size, regions=160, shift=20):
         """What an H200 is modelled to take, in ms: of work and of launches, by stage."""
         text = self.run('tests/kernels/kernel-model', *size, regions, shift)
-        found = re.findall(r'^stage (\w+): ([\d.]+) us of work on an H200, .* (\d+) launches$',
-                           text, re.M)
-        launch = float(re.search(r'and (\d+) us of launches', text)[1]) / 1000
-        count = sum(int(launches) for _, _, launches in found)
-        return {stage: (float(us) / 1000, int(launches) * launch / count)
-                for stage, us, launches in found}
+        found = re.findall(r'^stage (\w+): ([\d.]+) us of work on an H200, .* graphs do .*: '
+                           r'(\d+) us instead of \d+$', text, re.M)
+        return {stage: (float(work) / 1000, float(launches) / 1000)
+                for stage, work, launches in found}
 
 
 def machine():
