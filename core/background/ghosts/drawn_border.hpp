@@ -77,8 +77,5 @@ struct BorderReader {
     return most;
   }
 };
-template <class Mask, class Before>
-BorderReader(const ImageView<const uint8_t>*, int, const Mask&, Size, Before)
-    -> BorderReader<Mask, Before>;
 
 }  // namespace rg::background
