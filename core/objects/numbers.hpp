@@ -145,7 +145,8 @@ struct Numbers {
     Number knownFrames{4};        ///< From which one can be looked for.
     Number faithful{160, 256};    ///< So much of a thing agrees that keeps its shape.
     Number leastAgreeing{8};      ///< Samples.
-    Number leastShare{1, 200};    ///< Of a portrait, that has to agree.
+    Number leastShare{1, 200};    ///< Of a portrait, that has to agree,
+    Number rigidShare{1, 32};     ///< and of what keeps its shape.
     Number agreeing{1, 2};        ///< Of what is seen of it.
     Number about{1, 8};           ///< By so much of its size a clear blob may be off.
     Number turnX{1, 3};           ///< Of its width, that a turn may carry it by,
@@ -246,7 +247,9 @@ struct Numbers {
     Number oneBodyColumns{3, 5};  ///< Two that are one body share so many of their columns,
     Number oneBodyRows{2, 5};     ///< no more of their rows,
     Number oneBodyGap{1, 4};      ///< are no further apart, in the lesser height,
-    Number oneBodyHeight{5, 4};   ///< and together no higher than usual.
+    Number oneBodyHeight{5, 4};   ///< and together no higher than usual;
+    Number oneBodyCells{5, 4};    ///< or show no more than one of them would,
+    Number oneBodyShared{1, 2};   ///< in boxes that overlap by so much.
     Number settled = ms(100);     ///< Two that only brush each other for so long have not merged.
     Number clutterSome{8};        ///< Things that came and went, about two a second for long.
   } life;

@@ -120,8 +120,9 @@ void TrackPortraits::giveMatch(const PortraitScene& scene, Task& task, TrackerSt
   const Track& track = state.tracks[task.track];
   const PortraitMatch& match = task.match;
   Sighting& s = state.sightings[task.track];
+  // A sliver tells of what keeps its shape.
   const Numbers::Likeness& n = state.numbers.likeness;
-  const int64_t least = n.leastShare.of(match.inside());
+  const int64_t least = (state.isRigid(track) ? n.rigidShare : n.leastShare).of(match.inside());
   if (match.agreeing < std::max(n.leastAgreeing.whole(), least) ||
       match.agreeing < n.agreeing * match.seen) {
     s.task = -1;

@@ -8,7 +8,8 @@ namespace {
 
 constexpr int kUnit = kPositionUnit;
 
-/// Whether two tracks seem to be one body: they lie above each other as its halves do.
+/// Whether two tracks seem to be one body: they lie above each other as its halves do, or together
+/// show no more than one of them should.
 bool areOneBody(const TrackerState& state, const GroupGrid& e, size_t a, size_t b) {
   const Numbers::Life& n = state.numbers.life;
   const Track &p = state.tracks[a], &q = state.tracks[b];
@@ -17,6 +18,7 @@ bool areOneBody(const TrackerState& state, const GroupGrid& e, size_t a, size_t 
   if (state.blobs.has(a) && state.blobs.has(b) &&
       areApart(e, state.blobs.of(a).group, state.blobs.of(b).group))
     return false;
+  if (!state.scale.isUniform() && (state.isComplete(a, e) || state.isComplete(b, e))) return false;
   if (state.outgrows(p, both) || state.outgrows(q, both)) return false;
   if (!state.scale.isUniform() && state.blobs.has(a) && state.blobs.areTogether(a, b) &&
       std::min(p.apartNs, q.apartNs) < n.doubled.whole())
@@ -28,7 +30,11 @@ bool areOneBody(const TrackerState& state, const GroupGrid& e, size_t a, size_t 
     return rows < n.oneBodyRows * least && -rows < n.oneBodyGap * least;
   }
   const Extent usual = state.scale.at(both.bottom());
-  return both.height * kUnit < n.oneBodyHeight * usual.height;
+  if (both.height * kUnit < n.oneBodyHeight * usual.height) return true;
+  const Sighting &s = state.sightings[a], &t = state.sightings[b];
+  const int64_t one = int64_t{std::max(s.boxCells, t.boxCells)} * std::max(p.fill, q.fill);
+  return 256 * (int64_t{s.cells} + t.cells) < n.oneBodyCells * one &&
+         intersect(first, second).area() > n.oneBodyShared * std::min(first.area(), second.area());
 }
 
 }  // namespace
