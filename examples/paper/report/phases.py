@@ -3,8 +3,8 @@
 
 CPU times are those of one core: others on the machine and threads don't count.
 What a GPU would take is modelled (tests/kernels/model.cpp): bytes over an H200's bandwidth, integer
-operations over its rate, and the launches of CUDA graphs. Nothing was measured on one. There is no kernel that
-merges: mrfmerge's time on the CPU is added.
+operations over its rate, and the launches of CUDA graphs. Nothing was measured on one. There is no
+kernel that merges: mrfmerge's time on the CPU is added.
 """
 from . import plots, published
 from .section import Section
