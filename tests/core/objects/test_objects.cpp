@@ -115,12 +115,18 @@ TEST(Objects, WhatComesInBesideAKnownObjectIsAnObjectOfItsOwn) {
   EXPECT_GE(overlap(told[1]->box, {148, 152, 60, 50}), 0.7);
 }
 
-TEST(Objects, WhoComesInWhereAnotherLeavesIsSomebodyElse) {
-  BodyScene scene;
+/// Of a red thing that leaves and a green one that stops where it went by.
+std::shared_ptr<const objects::Objects> showOneLeaveAnotherStop(BodyScene& scene) {
   std::shared_ptr<const objects::Objects> objects;
   for (int i = 0; i < 90; ++i)
     objects = scene.show(
         {{{40 + 4 * i, 100, 30, 80}, kRed}, {{std::max(230, 550 - 4 * i), 96, 40, 70}, kGreen}});
+  return objects;
+}
+
+TEST(Objects, WhoComesInWhereAnotherLeavesIsSomebodyElse) {
+  BodyScene scene;
+  const auto objects = showOneLeaveAnotherStop(scene);
   const auto told = toldOf(*objects);
   ASSERT_EQ(told.size(), 1u);
   EXPECT_NE(told[0]->id, 1u);
@@ -130,10 +136,7 @@ TEST(Objects, WhoComesInWhereAnotherLeavesIsSomebodyElse) {
 TEST(Objects, WithoutAppearanceWhoComesInWhereAnotherLeavesIsTakenForIt) {
   BodyScene scene;
   scene.params.appearanceWeight = 0;
-  std::shared_ptr<const objects::Objects> objects;
-  for (int i = 0; i < 90; ++i)
-    objects = scene.show(
-        {{{40 + 4 * i, 100, 30, 80}, kRed}, {{std::max(230, 550 - 4 * i), 96, 40, 70}, kGreen}});
+  const auto objects = showOneLeaveAnotherStop(scene);
   const auto told = toldOf(*objects);
   ASSERT_EQ(told.size(), 1u);
   EXPECT_EQ(told[0]->id, 1u);
