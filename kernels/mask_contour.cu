@@ -56,8 +56,9 @@ __global__ void trimWords(const __grid_constant__ TrimmedPicture seen,
   const Point at = wordOfWarp();
   if (at.y >= mask.size.height) return;
   const MaskPixels pixels{mask};
-  const rg::background::BorderReader<MaskPixels> reader{seen.picture.planes, seen.picture.channels,
-                                                        pixels, mask.size};
+  const auto modelled = [&](Point p, int c) { return modelledLevel(model, p, c); };
+  const rg::background::BorderReader reader{seen.picture.planes, seen.picture.channels, pixels,
+                                            mask.size, modelled};
   const uint64_t drawn = chooseBits(borderOf(mask, at), at, [&](Point p) {
     return reader.isDrawnIn(p, radiusAt(model, tolerance, seen.brightness.at(p.x, p.y), p));
   });

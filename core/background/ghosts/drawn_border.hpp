@@ -28,32 +28,36 @@ template <class Now, class Before>
   return true;
 }
 
-/// Reads border pixels of a mask in the picture as it came. Mask: at(x, y).
-template <class Mask>
+/// Reads border pixels of a mask in the picture as it came. Mask: at(x, y); Before: the model's
+/// level of a pixel and a channel.
+template <class Mask, class Before>
 struct BorderReader {
   const ImageView<const uint8_t>* planes;  ///< As many as there are channels.
   int channels;
   const Mask& mask;
   Size size;
+  Before before;
 
-  /// Whether the smoothing of the picture has drawn in the pixel, which is in the mask, on the side
-  /// `out`; radius: by how much it may be off anyway.
-  [[nodiscard]] constexpr bool isDrawnIn(Point p, Point out, int radius) const {
-    constexpr int kSide = 3;  // Pixels from the border to what stands for a side.
-    const Point beside{p.x + out.x, p.y + out.y};
-    if (!boundsOf(size).contains(beside) || mask.at(beside.x, beside.y) || !isDeep(p, out))
-      return false;
-    const int toInside = difference(p, {p.x - kSide * out.x, p.y - kSide * out.y});
-    const int toOutside = difference(p, {p.x + kSide * out.x, p.y + kSide * out.y});
-    return toOutside < toInside && 2 * toInside > 3 * radius;
-  }
-  /// The same on any of the four sides.
+  /// Whether the smoothing of the picture has drawn in the pixel, which is in the mask, from any of
+  /// the four sides; radius: by how much it may be off anyway.
   [[nodiscard]] constexpr bool isDrawnIn(Point p, int radius) const {
-    return isDrawnIn(p, {-1, 0}, radius) || isDrawnIn(p, {1, 0}, radius) ||
-           isDrawnIn(p, {0, -1}, radius) || isDrawnIn(p, {0, 1}, radius);
+    int toBackground = 0;
+    for (int c = 0; c < channels; ++c)
+      toBackground = std::max(toBackground, absDiff(planes[c].at(p.x, p.y), before(p, c)));
+    // Closer to the background than to the inside, from which it is off by more than 1.5 radii.
+    const int least = std::max(toBackground, 3 * radius / 2);
+    return isCloserOutside(p, {-1, 0}, least) || isCloserOutside(p, {1, 0}, least) ||
+           isCloserOutside(p, {0, -1}, least) || isCloserOutside(p, {0, 1}, least);
   }
 
  private:
+  /// Whether what lies inside, seen from the side `out`, is off by more than `least`.
+  [[nodiscard]] constexpr bool isCloserOutside(Point p, Point out, int least) const {
+    constexpr int kSide = 3;  // Pixels from the border to what stands for the inside.
+    const Point beside{p.x + out.x, p.y + out.y};
+    return boundsOf(size).contains(beside) && !mask.at(beside.x, beside.y) && isDeep(p, out) &&
+           difference(p, {p.x - kSide * out.x, p.y - kSide * out.y}) > least;
+  }
   [[nodiscard]] constexpr bool isDeep(Point p, Point out) const {
     constexpr int kLeastDepth = 4;
     for (int i = 1; i <= kLeastDepth; ++i) {
@@ -73,5 +77,8 @@ struct BorderReader {
     return most;
   }
 };
+template <class Mask, class Before>
+BorderReader(const ImageView<const uint8_t>*, int, const Mask&, Size, Before)
+    -> BorderReader<Mask, Before>;
 
 }  // namespace rg::background

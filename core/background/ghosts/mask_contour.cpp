@@ -69,7 +69,10 @@ void trimBorder(const Picture& picture, const SmoothPicture& smoothed,
   for (int y = 0; y < mask.height(); ++y)
     std::copy_n(mask.row(y), mask.wordsPerRow(), before.row(y));
   const std::array planes{picture.green(), picture.red(), picture.blue()};
-  const BorderReader<BitMask> reader{planes.data(), picture.isGrey() ? 1 : 3, before, mask.size()};
+  const auto modelled = [&](Point p, int c) {
+    return modelledLevel([&](int sample) { return +model.sample(p, sample, c); });
+  };
+  const BorderReader reader{planes.data(), model.channels, before, mask.size(), modelled};
   executor.forRows(mask.height(), [&](int first, int last) {
     for (int y = first; y < last; ++y) {
       const RadiusRow radii = radiusRow(model, tolerance, y);

@@ -31,9 +31,9 @@ struct FaintEvidence {
 void growFaint(const FaintEvidence& evidence, const Executor& executor, CleaningScratch& cleaning,
                ContourScratch& scratch, BitMask& mask);
 
-/// Clears border pixels whose colour in the picture as it came, not smoothed, is closer to that
-/// three pixels outside than to that three pixels inside, from which it differs by more than 1.5
-/// radii. Parts thinner than 5 pixels stay as they are.
+/// Clears border pixels whose colour in the picture as it came, not smoothed, is closer to the
+/// model's than to that three pixels inside, from which it differs by more than 1.5 radii. Parts
+/// thinner than 5 pixels stay as they are.
 void trimBorder(const Picture& picture, const SmoothPicture& smoothed,
                 const ConsensusBackground& model, const Tolerance& tolerance,
                 const Executor& executor, ContourScratch& scratch, BitMask& mask);

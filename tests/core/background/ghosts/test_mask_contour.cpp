@@ -89,6 +89,15 @@ TEST_F(MaskContour, ABorderPixelThatLooksLikeOutsideGoes) {
   EXPECT_TRUE(mask_.at(20, 13));
 }
 
+TEST_F(MaskContour, ABorderPixelThatOnlyLooksLikeWhatStandsBesideItStays) {
+  // What stands beside it, outside of the mask, is not what is behind it.
+  show([](int x, int y) {
+    return Box{20, 8, 11, 12}.contains({x, y}) ? 130 : x > 30 ? 200 : kWall;
+  });
+  trim();
+  EXPECT_TRUE(mask_.at(31, 13));
+}
+
 TEST_F(MaskContour, AWeakBorderStays) {
   // Within one and a half radii nothing says which side a pixel belongs to.
   show([](int x, int y) { return Box{20, 8, 11, 12}.contains({x, y}) ? 114 : kWall; });
