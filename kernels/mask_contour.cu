@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "core/background/ghosts/drawn_border.hpp"
 #include "kernels/bit_mask.hpp"
 #include "kernels/mask_cleaning.hpp"
 #include "kernels/mask_contour.hpp"
@@ -50,17 +49,17 @@ __device__ uint64_t borderOf(const BitView& mask, Point at) {
   return here & ~(left & right & above & below);
 }
 
-__global__ void trimWords(const __grid_constant__ TrimmedPicture seen,
-                          const __grid_constant__ ModelView model,
-                          rg::background::Tolerance tolerance, BitView mask, BitTarget out) {
+__global__ void trimWords(const __grid_constant__ BorderView seen,
+                          rg::background::BorderLayer layer, BitView mask, BitTarget out) {
   const Point at = wordOfWarp();
   if (at.y >= mask.size.height) return;
   const MaskPixels pixels{mask};
-  const auto modelled = [&](Point p, int c) { return modelledLevel(model, p, c); };
+  const auto modelled = [&](Point p, int c) { return modelledLevel(seen.model, p, c); };
   const rg::background::BorderReader reader{seen.picture.planes, seen.picture.channels, pixels,
                                             mask.size, modelled};
   const uint64_t drawn = chooseBits(borderOf(mask, at), at, [&](Point p) {
-    return reader.isDrawnIn(p, radiusAt(model, tolerance, seen.brightness.at(p.x, p.y), p));
+    return reader.isOn(layer, p,
+                       radiusAt(seen.model, seen.tolerance, seen.brightness.at(p.x, p.y), p));
   });
   if (threadIdx.x == 0) out.words.at(at.x, at.y) = mask.words.at(at.x, at.y) & ~drawn;
 }
@@ -79,12 +78,11 @@ void growFaint(const Planes& smoothed, const ModelView& model, const BitView& fa
         BitView(scratch.across), BitView(scratch.near), mask);
 }
 
-void trimBorder(const TrimmedPicture& seen, const ModelView& model,
-                const rg::background::Tolerance& tolerance, const BitView& mask,
+void trimBorder(const BorderView& seen, rg::background::BorderLayer layer, const BitView& mask,
                 const BitTarget& out, Stream stream) {
   const double words = static_cast<double>(mask.words.size.area());
   start(launchOverWords("trimBorder", mask.size, {24 * words, 16 * words}), stream, trimWords, seen,
-        model, tolerance, mask, out);
+        layer, mask, out);
 }
 
 }  // namespace rg::gpu::background

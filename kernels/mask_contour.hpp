@@ -16,14 +16,15 @@ struct ContourView {
 void growFaint(const Planes& smoothed, const ModelView& model, const BitView& faint,
                const ContourView& scratch, const BitTarget& mask, Stream stream);
 
-/// rg::background::trimBorder: `picture` as it came, and the brightness of the smoothed one. In and
-/// out must differ.
-struct TrimmedPicture {
+/// rg::background::BorderEvidence: of the smoothed picture, the brightness.
+struct BorderView {
   Planes picture;
   ImageView<const uint8_t> brightness;
+  ModelView model;
+  rg::background::Tolerance tolerance;
 };
-void trimBorder(const TrimmedPicture& seen, const ModelView& model,
-                const rg::background::Tolerance& tolerance, const BitView& mask,
+/// In and out must differ.
+void trimBorder(const BorderView& seen, rg::background::BorderLayer layer, const BitView& mask,
                 const BitTarget& out, Stream stream);
 
 }  // namespace rg::gpu::background

@@ -290,7 +290,8 @@ void ConsensusMethod::refine(const MethodJob& job) {
   job.on.keepSupported(mask_, verdicts_.strong, leastStrongPx(pixels));
   job.on.fillHoles(mask_, pixels / 50);
   if (shift_ != Point{}) return;  // The picture as it came is elsewhere.
-  job.on.trimBorder(*job.picture, smooth_, model_, toleranceOf(job), mask_);
+  for (const BorderLayer layer : {BorderLayer::DrawnIn, BorderLayer::Blurred})
+    job.on.trimBorder({*job.picture, smooth_, model_, toleranceOf(job)}, layer, mask_);
 }
 
 void ConsensusMethod::clean(const MethodJob& job) {

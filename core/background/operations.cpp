@@ -124,10 +124,8 @@ void Operations::growFaint(const FaintEvidence& evidence, BitMask& mask) {
   background::growFaint(evidence, executor_, cleaning_, contour_, mask);
 }
 
-void Operations::trimBorder(const Picture& picture, const SmoothPicture& smoothed,
-                            const ConsensusBackground& model, const Tolerance& tolerance,
-                            BitMask& mask) {
-  background::trimBorder(picture, smoothed, model, tolerance, executor_, contour_, mask);
+void Operations::trimBorder(const BorderEvidence& evidence, BorderLayer layer, BitMask& mask) {
+  background::trimBorder(evidence, layer, executor_, contour_, mask);
 }
 
 void Operations::thicken(const BitMask& mask, int margin, BitMask& out) {

@@ -78,9 +78,7 @@ class Operations {
   virtual void fillUnedged(const SmoothPicture& picture, int mostStep, uint32_t mostPx,
                            BitMask& mask);
   virtual void growFaint(const FaintEvidence& evidence, BitMask& mask);
-  virtual void trimBorder(const Picture& picture, const SmoothPicture& smoothed,
-                          const ConsensusBackground& model, const Tolerance& tolerance,
-                          BitMask& mask);
+  virtual void trimBorder(const BorderEvidence& evidence, BorderLayer layer, BitMask& mask);
   virtual void thicken(const BitMask& mask, int margin, BitMask& out);
   virtual void remove(const BitMask& b, BitMask& a);
   virtual void keepOnly(const BitMask& b, BitMask& a);

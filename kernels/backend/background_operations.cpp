@@ -21,6 +21,7 @@
 namespace rg::gpu::background {
 namespace {
 
+using rg::background::BorderEvidence, rg::background::BorderLayer;
 using rg::background::ConsensusBackground, rg::background::ConsensusRate;
 using rg::background::ContourSums, rg::background::FaintEvidence, rg::background::GainSums;
 using rg::background::JudgedPicture, rg::background::LevelMap, rg::background::LevelMaps;
@@ -255,18 +256,16 @@ class GpuOperations final : public Cpu, private Dispatcher {
         [&] { Cpu::growFaint(evidence, mask); }, Reads{evidence.picture}, Reads{evidence.model},
         Reads{evidence.faint}, Writes{evidence.shown}, Changes{mask});
   }
-  void trimBorder(const Picture& picture, const SmoothPicture& smoothed,
-                  const ConsensusBackground& model, const Tolerance& tolerance,
-                  BitMask& mask) override {
+  void trimBorder(const BorderEvidence& evidence, BorderLayer layer, BitMask& mask) override {
     run(
         [&] {
           const BitTarget before = copyOf(on().read(mask));
-          const TrimmedPicture seen{on().read(picture), on().read(smoothed).planes[0]};
-          background::trimBorder(seen, on().read(model), tolerance, before, on().change(mask),
-                                 stream());
+          const BorderView view{on().read(evidence.picture), on().read(evidence.smoothed).planes[0],
+                                on().read(evidence.model), evidence.tolerance};
+          background::trimBorder(view, layer, before, on().change(mask), stream());
         },
-        [&] { Cpu::trimBorder(picture, smoothed, model, tolerance, mask); }, Reads{smoothed},
-        Reads{model}, Changes{mask});
+        [&] { Cpu::trimBorder(evidence, layer, mask); }, Reads{evidence.smoothed},
+        Reads{evidence.model}, Changes{mask});
   }
   void thicken(const BitMask& mask, int margin, BitMask& out) override {
     run([&] { rg::gpu::thicken(on().read(mask), margin, on().write(out, mask.size()), stream()); },

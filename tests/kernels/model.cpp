@@ -84,8 +84,10 @@ void launchCleaning(const Memory& m) {
                    m.bits, stream);
   gpu::background::growFaint(m.planes, m.model, m.bits, {m.bits, m.bits, m.bits}, m.bits, stream);
   keepWhole();
-  gpu::background::trimBorder({m.planes, m.planes.planes[0]}, m.model, {5, 20}, m.bits, m.bits,
-                              stream);
+  using rg::background::BorderLayer;
+  for (const BorderLayer layer : {BorderLayer::DrawnIn, BorderLayer::Blurred})
+    gpu::background::trimBorder({m.planes, m.planes.planes[0], m.model, {5, 20}}, layer, m.bits,
+                                m.bits, stream);
   gpu::background::dropSmallParts(m.bits, 8, {}, stream);
 }
 

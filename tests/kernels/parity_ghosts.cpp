@@ -214,7 +214,7 @@ void parity_dropSwaying() {
   EXPECT_GT(keptPixels, 0u);
 }
 
-void parity_trimBorder() {
+void compareBorders(background::BorderLayer layer) {
   uint32_t trimmedPixels = 0;
   forScenes(3, [&](LearntScene scene) {
     const Size size = scene.smooth.size();
@@ -223,16 +223,22 @@ void parity_trimBorder() {
       Bits there(expected), out(size);
       DevicePlanes smooth(scene.smooth.planes, scene.smooth.channels);
       DeviceModel model(scene.model);
-      gpu::background::trimBorder({planesOf(scene.picture), smooth.planes[0]}, model.view(),
-                                  tolerance, there, out, nullptr);
+      gpu::background::trimBorder(
+          {planesOf(scene.picture), smooth.planes[0], model.view(), tolerance}, layer, there, out,
+          nullptr);
       background::ContourScratch scratch;
-      background::trimBorder(scene.picture, scene.smooth, scene.model, tolerance, oneThread(),
-                             scratch, expected);
+      background::trimBorder({scene.picture, scene.smooth, scene.model, tolerance}, layer,
+                             oneThread(), scratch, expected);
       out.expect(expected, "trimmed");
       trimmedPixels += countSet(maskOf(size, 6)) - countSet(expected);
     }
   });
   EXPECT_GT(trimmedPixels, 0u);
+}
+
+void parity_trimBorder() {
+  compareBorders(background::BorderLayer::DrawnIn);
+  compareBorders(background::BorderLayer::Blurred);
 }
 
 }  // namespace rg::test

@@ -28,6 +28,12 @@ template <class Now, class Before>
   return true;
 }
 
+/// Which pixels of a part's border go.
+enum class BorderLayer : uint8_t {
+  DrawnIn,  ///< Closer to the background, and to what is beside the part, than to its inside.
+  Blurred,  ///< Closer to the background than to the inside, on a slope that leads from it inwards.
+};
+
 /// Reads border pixels of a mask in the picture as it came. Mask: at(x, y); Before: the model's
 /// level of a pixel and a channel.
 template <class Mask, class Before>
@@ -38,43 +44,59 @@ struct BorderReader {
   Size size;
   Before before;
 
-  /// Whether the smoothing of the picture has drawn in the pixel, which is in the mask, from any of
-  /// the four sides; radius: by how much it may be off anyway.
-  [[nodiscard]] constexpr bool isDrawnIn(Point p, int radius) const {
-    int toBackground = 0;
-    for (int c = 0; c < channels; ++c)
-      toBackground = std::max(toBackground, absDiff(planes[c].at(p.x, p.y), before(p, c)));
-    // Closer to the background than to the inside, from which it is off by more than 1.5 radii.
-    const int least = std::max(toBackground, 3 * radius / 2);
-    return isCloserOutside(p, {-1, 0}, least) || isCloserOutside(p, {1, 0}, least) ||
-           isCloserOutside(p, {0, -1}, least) || isCloserOutside(p, {0, 1}, least);
+  /// Whether a pixel, which is in the mask, goes with the layer, seen from any of the four sides;
+  /// radius: by how much it may be off anyway.
+  [[nodiscard]] constexpr bool isOn(BorderLayer layer, Point p, int radius) const {
+    return isOn(layer, p, {-1, 0}, radius) || isOn(layer, p, {1, 0}, radius) ||
+           isOn(layer, p, {0, -1}, radius) || isOn(layer, p, {0, 1}, radius);
   }
 
  private:
-  /// Whether what lies inside, seen from the side `out`, is off by more than `least`.
-  [[nodiscard]] constexpr bool isCloserOutside(Point p, Point out, int least) const {
-    constexpr int kSide = 3;  // Pixels from the border to what stands for the inside.
-    const Point beside{p.x + out.x, p.y + out.y};
-    return boundsOf(size).contains(beside) && !mask.at(beside.x, beside.y) && isDeep(p, out) &&
-           difference(p, {p.x - kSide * out.x, p.y - kSide * out.y}) > least;
+  [[nodiscard]] constexpr bool isOn(BorderLayer layer, Point p, Point out, int radius) const {
+    constexpr int kSide = 3;  // Pixels from the border to what stands for a side.
+    const Point beside = along(p, out, 1);
+    if (!boundsOf(size).contains(beside) || mask.at(beside.x, beside.y) || !isDeep(p, out))
+      return false;
+    const int toInside = difference(p, along(p, out, -kSide));
+    if (2 * toInside <= 3 * radius || toInside <= toBackground(p)) return false;
+    return layer == BorderLayer::DrawnIn ? difference(p, along(p, out, kSide)) < toInside
+                                         : isOnSlope(p, out);
+  }
+  /// Whether the further in, the further from the background, from one pixel outside to two inside.
+  [[nodiscard]] constexpr bool isOnSlope(Point p, Point out) const {
+    for (int i = -2; i < 1; ++i)
+      if (toBackground(along(p, out, i)) <= toBackground(along(p, out, i + 1))) return false;
+    return true;
+  }
+  [[nodiscard]] static constexpr Point along(Point p, Point out, int steps) {
+    return {p.x + steps * out.x, p.y + steps * out.y};
   }
   [[nodiscard]] constexpr bool isDeep(Point p, Point out) const {
     constexpr int kLeastDepth = 4;
     for (int i = 1; i <= kLeastDepth; ++i) {
-      const Point q{p.x - i * out.x, p.y - i * out.y};
+      const Point q = along(p, out, -i);
       if (boundsOf(size).contains(q) && !mask.at(q.x, q.y)) return false;
     }
     return true;
   }
 
-  /// Outside the frame its border is repeated.
   [[nodiscard]] constexpr int difference(Point p, Point other) const {
-    const int x = std::clamp(other.x, 0, size.width - 1);
-    const int y = std::clamp(other.y, 0, size.height - 1);
-    int most = 0;
-    for (int c = 0; c < channels; ++c)
-      most = std::max(most, absDiff(planes[c].at(p.x, p.y), planes[c].at(x, y)));
-    return most;
+    const Point q = repeated(other);
+    return most([&](int c) { return absDiff(planes[c].at(p.x, p.y), planes[c].at(q.x, q.y)); });
+  }
+  [[nodiscard]] constexpr int toBackground(Point p) const {
+    const Point q = repeated(p);
+    return most([&](int c) { return absDiff(planes[c].at(q.x, q.y), before(q, c)); });
+  }
+  /// Outside the frame its border is repeated.
+  [[nodiscard]] constexpr Point repeated(Point p) const {
+    return {std::clamp(p.x, 0, size.width - 1), std::clamp(p.y, 0, size.height - 1)};
+  }
+  template <class Of>
+  [[nodiscard]] constexpr int most(const Of& of) const {
+    int all = 0;
+    for (int c = 0; c < channels; ++c) all = std::max(all, of(c));
+    return all;
   }
 };
 template <class Mask, class Before>

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/background/ghosts/mask_contour.hpp"
 
-#include "core/background/ghosts/drawn_border.hpp"
-
 #include <algorithm>
 
 namespace rg::background {
@@ -61,15 +59,15 @@ void growFaint(const FaintEvidence& evidence, const Executor& executor, Cleaning
       mask.row(y)[word] |= scratch.across.row(y)[word] & scratch.near.row(y)[word];
 }
 
-void trimBorder(const Picture& picture, const SmoothPicture& smoothed,
-                const ConsensusBackground& model, const Tolerance& tolerance,
-                const Executor& executor, ContourScratch& scratch, BitMask& mask) {
+void trimBorder(const BorderEvidence& evidence, BorderLayer layer, const Executor& executor,
+                ContourScratch& scratch, BitMask& mask) {
+  const auto& [picture, smoothed, model, tolerance] = evidence;
   scratch.candidates.resize(mask.size());
   BitMask& before = scratch.candidates;
   for (int y = 0; y < mask.height(); ++y)
     std::copy_n(mask.row(y), mask.wordsPerRow(), before.row(y));
   const std::array planes{picture.green(), picture.red(), picture.blue()};
-  const auto modelled = [&](Point p, int c) {
+  const auto modelled = [&model = model](Point p, int c) {
     return modelledLevel([&](int sample) { return +model.sample(p, sample, c); });
   };
   const BorderReader reader{planes.data(), model.channels, before, mask.size(), modelled};
@@ -79,7 +77,7 @@ void trimBorder(const Picture& picture, const SmoothPicture& smoothed,
       const uint8_t* brightness = smoothed.planes[0].row(y);
       forBorderColumns(before, y, [&](int x) {
         const int radius = radiusAt(radii, brightness[x], x);
-        if (reader.isDrawnIn({x, y}, radius))
+        if (reader.isOn(layer, {x, y}, radius))
           mask.row(y)[x / kWordColumns] &= ~(uint64_t{1} << x % kWordColumns);
       });
     }

@@ -5,6 +5,7 @@
 // Determinism: integers, each pixel by itself; the same bits for any number of threads.
 #pragma once
 
+#include "core/background/ghosts/drawn_border.hpp"
 #include "core/background/mask_cleaning.hpp"
 #include "core/background/models/consensus_background.hpp"
 #include "core/base/bit_mask.hpp"
@@ -31,11 +32,17 @@ struct FaintEvidence {
 void growFaint(const FaintEvidence& evidence, const Executor& executor, CleaningScratch& cleaning,
                ContourScratch& scratch, BitMask& mask);
 
-/// Clears border pixels whose colour in the picture as it came, not smoothed, is closer to the
-/// model's than to that three pixels inside, from which it differs by more than 1.5 radii. Parts
-/// thinner than 5 pixels stay as they are.
-void trimBorder(const Picture& picture, const SmoothPicture& smoothed,
-                const ConsensusBackground& model, const Tolerance& tolerance,
-                const Executor& executor, ContourScratch& scratch, BitMask& mask);
+struct BorderEvidence {
+  const Picture& picture;  ///< As it came.
+  const SmoothPicture& smoothed;
+  const ConsensusBackground& model;
+  Tolerance tolerance;
+};
+/// Clears border pixels that belong to a layer by their colour in the picture, not smoothed:
+/// those closer to the model's than to that three pixels inside, from which they differ by
+/// more than 1.5 radii, and which are closer to that three pixels outside, too, or lie on a slope.
+/// Parts thinner than 5 pixels stay as they are.
+void trimBorder(const BorderEvidence& evidence, BorderLayer layer, const Executor& executor,
+                ContourScratch& scratch, BitMask& mask);
 
 }  // namespace rg::background

@@ -9,6 +9,7 @@
 namespace rg {
 namespace {
 
+using background::BorderLayer;
 using test::makePicture;
 using test::Rgb;
 
@@ -45,8 +46,9 @@ class MaskContour : public ::testing::Test {
     draw(bits, faint);
     background::growFaint({smooth_, model_, bits, shown_}, Executor(2), cleaning_, scratch_, mask_);
   }
-  void trim() {
-    background::trimBorder(*picture_, smooth_, model_, {10, 0}, Executor(2), scratch_, mask_);
+  void trim(BorderLayer layer = BorderLayer::DrawnIn) {
+    background::trimBorder({*picture_, smooth_, model_, {10, 0}}, layer, Executor(2), scratch_,
+                           mask_);
   }
 
   std::shared_ptr<const Picture> picture_;
@@ -98,6 +100,27 @@ TEST_F(MaskContour, ABorderPixelThatOnlyLooksLikeWhatStandsBesideItStays) {
   EXPECT_TRUE(mask_.at(31, 13));
 }
 
+TEST_F(MaskContour, ASlopeFromTheBackgroundGoesUpToItsMiddle) {
+  // The slope ends where the mask does, and its middle is at 29.
+  show([](int x, int y) {
+    return kPart.contains({x, y}) ? std::min(250, kWall + 25 * (32 - x)) : kWall;
+  });
+  trim(BorderLayer::Blurred);
+  trim(BorderLayer::Blurred);
+  EXPECT_FALSE(mask_.at(31, 13));
+  EXPECT_FALSE(mask_.at(30, 13));
+  trim(BorderLayer::Blurred);
+  EXPECT_TRUE(mask_.at(29, 13));
+}
+
+TEST_F(MaskContour, NoSlopeNothingGoes) {
+  show([](int x, int y) {
+    return Box{20, 8, 11, 12}.contains({x, y}) ? 220 : x == 31 && y >= 8 && y < 20 ? 130 : kWall;
+  });
+  trim(BorderLayer::Blurred);
+  EXPECT_TRUE(mask_.at(31, 13));
+}
+
 TEST_F(MaskContour, AWeakBorderStays) {
   // Within one and a half radii nothing says which side a pixel belongs to.
   show([](int x, int y) { return Box{20, 8, 11, 12}.contains({x, y}) ? 114 : kWall; });
@@ -124,7 +147,9 @@ TEST_F(MaskContour, TheSmallestMasksWork) {
     mask.clear();
     for (int y = 0; y < size.height; ++y) setColumns(mask.row(y), 0, size.width, true);
     background::growFaint({smooth_, model_, mask, shown_}, Executor(1), cleaning_, scratch_, mask);
-    background::trimBorder(*picture, smooth_, model_, {10, 0}, Executor(1), scratch_, mask);
+    for (const BorderLayer layer : {BorderLayer::DrawnIn, BorderLayer::Blurred})
+      background::trimBorder({*picture, smooth_, model_, {10, 0}}, layer, Executor(1), scratch_,
+                             mask);
     EXPECT_EQ(countSet(mask), static_cast<uint32_t>(size.area()));
   }
 }
