@@ -52,8 +52,9 @@ check_names() {  # PROGRAM PATTERN...
 
 check() {  # NAME FILTER
   local name=$1 log=$folder/$1${GTEST_SHARD_INDEX:-}.log status=0
-  valgrind --tool=memcheck --quiet --leak-check=no --error-exitcode=20 --num-callers=20 \
-    --fair-sched=try "$build/tests/$name/$name-tests" --gtest_filter="$2" >"$log" 2>&1 || status=$?
+  LD_PRELOAD=$build/tests/timer_resolution.so valgrind --tool=memcheck --quiet --leak-check=no \
+    --error-exitcode=20 --num-callers=20 --fair-sched=try \
+    "$build/tests/$name/$name-tests" --gtest_filter="$2" >"$log" 2>&1 || status=$?
   local passed
   passed=$(sed -n 's/^\[  PASSED  \] \([0-9]*\) tests\?\.$/\1/p' "$log")
   if ((status || ${passed:-0} == 0)); then
