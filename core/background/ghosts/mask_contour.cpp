@@ -61,20 +61,21 @@ void growFaint(const FaintEvidence& evidence, const Executor& executor, Cleaning
 
 void trimBorder(const BorderEvidence& evidence, BorderLayer layer, const Executor& executor,
                 ContourScratch& scratch, BitMask& mask) {
-  const auto& [picture, smoothed, model, tolerance] = evidence;
+  const Picture& picture = evidence.picture;
+  const ConsensusBackground& model = evidence.model;
   scratch.candidates.resize(mask.size());
   BitMask& before = scratch.candidates;
   for (int y = 0; y < mask.height(); ++y)
     std::copy_n(mask.row(y), mask.wordsPerRow(), before.row(y));
   const std::array planes{picture.green(), picture.red(), picture.blue()};
-  const auto modelled = [&model = model](Point p, int c) {
+  const auto modelled = [&](Point p, int c) {
     return modelledLevel([&](int sample) { return +model.sample(p, sample, c); });
   };
   const BorderReader reader{planes.data(), model.channels, before, mask.size(), modelled};
   executor.forRows(mask.height(), [&](int first, int last) {
     for (int y = first; y < last; ++y) {
-      const RadiusRow radii = radiusRow(model, tolerance, y);
-      const uint8_t* brightness = smoothed.planes[0].row(y);
+      const RadiusRow radii = radiusRow(model, evidence.tolerance, y);
+      const uint8_t* brightness = evidence.smoothed.planes[0].row(y);
       forBorderColumns(before, y, [&](int x) {
         const int radius = radiusAt(radii, brightness[x], x);
         if (reader.isOn(layer, {x, y}, radius))
