@@ -2,6 +2,7 @@
 #include "core/objects/tracking/steps/doubles.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace rg::objects {
 namespace {
@@ -37,6 +38,18 @@ bool areOneBody(const TrackerState& state, const GroupGrid& e, size_t a, size_t 
          intersect(first, second).area() > n.oneBodyShared * std::min(first.area(), second.area());
 }
 
+/// The older one keeps its number; how it looks the one knows that was more of it.
+void takeLooks(Track& from, Track& to) {
+  to.look = from.look;
+  to.colour = from.colour;
+  to.portrait = std::move(from.portrait);
+  to.centreX = from.centreX;
+  to.centreY = from.centreY;
+  to.centreSamples = from.centreSamples;
+  to.sway = from.sway;
+  to.fill = from.fill;
+}
+
 }  // namespace
 
 void joinDoubles(const GroupGrid& e, int64_t stepNs, TrackerState& state) {
@@ -63,6 +76,7 @@ void joinDoubles(const GroupGrid& e, int64_t stepNs, TrackerState& state) {
       kept.foot = both.bottom() * kUnit;
       kept.size = {both.width * kUnit, both.height * kUnit};
       kept.sizeSamples = 0;
+      if (state.sightings[b].cells > state.sightings[partner].cells) takeLooks(track, kept);
     }
     track.isOver = true;
     for (uint16_t& owner : state.owner)

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "core/objects/tracking/steps/doubles.hpp"
+
+#include <gtest/gtest.h>
+
+namespace rg {
+namespace {
+
+constexpr int kUnit = objects::kPositionUnit;
+
+/// A track that has been seen with this box, and that owns so many cells.
+void add(objects::TrackerState& state, const Box& box, uint32_t cells) {
+  objects::Track track;
+  track.id = state.nextId++;
+  track.x = (2 * box.x + box.width) * kUnit / 2;
+  track.foot = box.bottom() * kUnit;
+  track.size = {box.width * kUnit, box.height * kUnit};
+  track.look.frames = track.portrait.frames = static_cast<uint32_t>(track.id);
+  track.fill = static_cast<uint16_t>(100 * track.id);
+  track.isSeen = true;
+  state.tracks.push_back(track);
+  state.sightings.emplace_back().cells = cells;
+}
+
+class Doubles : public ::testing::Test {
+ protected:
+  void join() {
+    state_.blobs.findOwners(evidence_, {}, state_.owner, state_.tracks.size());
+    objects::joinDoubles(evidence_, 40'000'000, state_);
+  }
+  objects::GroupGrid evidence_;
+  objects::TrackerState state_;
+};
+
+TEST_F(Doubles, TheOlderKeepsItsNumberAndTakesTheLooksOfWhoIsMoreOfTheBody) {
+  add(state_, {100, 200, 20, 16}, 10);
+  add(state_, {95, 100, 40, 100}, 200);
+  join();
+  EXPECT_FALSE(state_.tracks[0].isOver);
+  EXPECT_TRUE(state_.tracks[1].isOver);
+  EXPECT_EQ(state_.tracks[0].box(), (Box{95, 100, 40, 116}));
+  EXPECT_EQ(state_.tracks[0].look.frames, 2u);
+  EXPECT_EQ(state_.tracks[0].portrait.frames, 2u);
+  EXPECT_EQ(state_.tracks[0].fill, 200);
+}
+
+TEST_F(Doubles, TheOlderKeepsItsLooksWhenAFootOfItJoinsIt) {
+  add(state_, {95, 100, 40, 100}, 200);
+  add(state_, {100, 200, 20, 16}, 10);
+  join();
+  EXPECT_TRUE(state_.tracks[1].isOver);
+  EXPECT_EQ(state_.tracks[0].box(), (Box{95, 100, 40, 116}));
+  EXPECT_EQ(state_.tracks[0].look.frames, 1u);
+  EXPECT_EQ(state_.tracks[0].portrait.frames, 1u);
+}
+
+TEST_F(Doubles, WhoStandBesideEachOtherStayTwo) {
+  add(state_, {95, 100, 40, 100}, 200);
+  add(state_, {140, 100, 40, 100}, 200);
+  join();
+  EXPECT_FALSE(state_.tracks[0].isOver || state_.tracks[1].isOver);
+}
+
+}  // namespace
+}  // namespace rg
