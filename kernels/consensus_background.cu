@@ -222,7 +222,7 @@ __global__ void paintSamples(BitView places, const __grid_constant__ ModelView m
   if (!isWithin(p, model.size)) return;
   if (places.words.data != nullptr && places.words.at(p.x / kWordColumns, p.y) == 0) return;
   for (int c = 0; c < model.channels; ++c)
-    out.planes[c].at(p.x, p.y) = static_cast<uint8_t>(paintedLevel(model, p, c));
+    out.planes[c].at(p.x, p.y) = static_cast<uint8_t>(modelledLevel(model, p, c));
 }
 
 double bytesOf(Size size, int channels) {

@@ -20,7 +20,7 @@ __global__ void addCandidates(const __grid_constant__ Planes picture,
   const uint64_t kept = chooseBits(bits, at, [&](Point p) {
     return !rg::background::isDimmed(
         model.channels, [&](int c) { return +picture.planes[c].at(p.x, p.y); },
-        [&](int c) { return paintedLevel(model, p, c); });
+        [&](int c) { return modelledLevel(model, p, c); });
   });
   if (threadIdx.x == 0) out.words.at(at.x, at.y) = sure | kept;
 }
@@ -31,35 +31,24 @@ __global__ void addGrown(BitView grown, BitView near, BitTarget mask) {
     mask.words.at(at.x, at.y) |= grown.words.at(at.x, at.y) & near.words.at(at.x, at.y);
 }
 
-struct MaskPixels {
-  BitView mask;
-  constexpr bool at(int x, int y) const { return isSet(mask, x, y); }
-};
-
-/// The set pixels of a word that have an unset one beside, above or below.
-__device__ uint64_t borderOf(const BitView& mask, Point at) {
-  const auto word = [&](int x, int y) {
-    return x < 0 || x >= mask.words.width() ? 0 : mask.words.at(x, y);
-  };
-  const uint64_t here = word(at.x, at.y);
-  const uint64_t left = here << 1 | word(at.x - 1, at.y) >> (kWordColumns - 1);
-  const uint64_t right = here >> 1 | word(at.x + 1, at.y) << (kWordColumns - 1);
-  const uint64_t above = word(at.x, std::max(0, at.y - 1));
-  const uint64_t below = word(at.x, std::min(mask.size.height - 1, at.y + 1));
-  return here & ~(left & right & above & below);
+__device__ rg::background::BorderSides borderSides(const BitView& mask, Point at) {
+  return rg::background::borderSides(mask.words.at(at.x, at.y), [&](int right, int down) {
+    const Point word{at.x + right, at.y + down};
+    if (!boundsOf(mask.words.size).contains(word)) return ~uint64_t{0};
+    return mask.words.at(word.x, word.y) | ~columnsOf(mask.size.width, word.x);
+  });
 }
 
 __global__ void trimWords(const __grid_constant__ BorderView seen,
                           rg::background::BorderLayer layer, BitView mask, BitTarget out) {
   const Point at = wordOfWarp();
   if (at.y >= mask.size.height) return;
-  const MaskPixels pixels{mask};
-  const auto modelled = [&](Point p, int c) { return modelledLevel(seen.model, p, c); };
-  const rg::background::BorderReader reader{seen.picture.planes, seen.picture.channels, pixels,
-                                            mask.size, modelled};
-  const uint64_t drawn = chooseBits(borderOf(mask, at), at, [&](Point p) {
-    return reader.isOn(layer, p,
-                       radiusAt(seen.model, seen.tolerance, seen.brightness.at(p.x, p.y), p));
+  const rg::background::BorderReader reader{seen.picture.planes, seen.shown.planes,
+                                            seen.picture.channels, mask.size};
+  const rg::background::BorderSides sides = borderSides(mask, at);
+  const uint64_t drawn = chooseBits(sides.any(), at, [&](Point p) {
+    const int radius = radiusAt(seen.model, seen.tolerance, seen.brightness.at(p.x, p.y), p);
+    return reader.isOn(layer, p, sides, uint64_t{1} << p.x % kWordColumns, radius);
   });
   if (threadIdx.x == 0) out.words.at(at.x, at.y) = mask.words.at(at.x, at.y) & ~drawn;
 }

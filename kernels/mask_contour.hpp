@@ -21,6 +21,7 @@ struct BorderView {
   Planes picture;
   ImageView<const uint8_t> brightness;
   ModelView model;
+  Planes shown;
   rg::background::Tolerance tolerance;
 };
 /// In and out must differ.

@@ -15,15 +15,7 @@ __device__ inline int radiusAt(const ModelView& model, const rg::background::Tol
                                   model.noise.at(p.x, p.y), model.unrest.at(p.x, p.y));
 }
 
-/// A pixel of the model as a picture: rg::background::paintModel.
-__device__ inline int paintedLevel(const ModelView& model, Point p, int channel) {
-  int sum = 0;
-  for (int k = 0; k < rg::background::kSamples; k += rg::background::kSamples / 4)
-    sum += *model.sample(p, k, channel);
-  return roundShift(sum, 2);
-}
-
-/// What contours are read in: rg::background::modelledLevel.
+/// rg::background::modelledLevel of a pixel.
 __device__ inline int modelledLevel(const ModelView& model, Point p, int channel) {
   return rg::background::modelledLevel(
       [&](int sample) { return +*model.sample(p, sample, channel); });

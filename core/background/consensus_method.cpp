@@ -60,7 +60,7 @@ class ConsensusMethod final : public MethodModel {
   [[nodiscard]] bool isBlind(const MethodJob& job);
   void goAlong(Foreground& out) const;
   void clean(const MethodJob& job);
-  void refine(const MethodJob& job);
+  void keepWhole(const MethodJob& job);
   void findShadow(const MethodJob& job);
   void dissolveGhosts(const MethodJob& job);
   void learnFrame(const MethodJob& job);
@@ -73,7 +73,8 @@ class ConsensusMethod final : public MethodModel {
   StillPixels still_;
   BitMask ghosts_;
   ShownModel shown_;
-  BitMask near_;  ///< The foreground and two pixels round it.
+  BitMask around_;  ///< Where the model is painted.
+  BitMask near_;    ///< The foreground and two pixels round it.
   BitMask previousNear_;
   BitMask dark_, shadow_;
   FrameCount frame_;
@@ -278,20 +279,11 @@ void ConsensusMethod::goAlong(Foreground& out) const {
   out.cameraSince = camera_.since();
 }
 
-uint32_t leastStrongPx(uint32_t pixels) {
-  return std::max(4u, pixels / 10000);
-}
-
-/// Not at the start: what is left of those who were in view must not stick to those who are, and is
-/// told from them by its contour.
-void ConsensusMethod::refine(const MethodJob& job) {
+/// Parts that are sure somewhere, without their holes.
+void ConsensusMethod::keepWhole(const MethodJob& job) {
   const auto pixels = static_cast<uint32_t>(mask_.size().area());
-  job.on.growFaint({smooth_, model_, verdicts_.faint, shown_}, mask_);
-  job.on.keepSupported(mask_, verdicts_.strong, leastStrongPx(pixels));
+  job.on.keepSupported(mask_, verdicts_.strong, std::max(4u, pixels / 10000));
   job.on.fillHoles(mask_, pixels / 50);
-  if (shift_ != Point{}) return;  // The picture as it came is elsewhere.
-  for (const BorderLayer layer : {BorderLayer::DrawnIn, BorderLayer::Blurred})
-    job.on.trimBorder({*job.picture, smooth_, model_, toleranceOf(job)}, layer, mask_);
 }
 
 void ConsensusMethod::clean(const MethodJob& job) {
@@ -299,10 +291,21 @@ void ConsensusMethod::clean(const MethodJob& job) {
   const int radius = pixels < 40000 ? 1 : pixels < 200000 ? 2 : 3;
   job.on.keepMajority(verdicts_.raw, radius, kMajority, mask_);
   job.on.dropSwaying(smooth_, model_, toleranceOf(job), mask_);
-  job.on.keepSupported(mask_, verdicts_.strong, leastStrongPx(pixels));
-  job.on.fillHoles(mask_, pixels / 50);
+  keepWhole(job);
   job.on.fillUnedged(smooth_, kMostGapStep, mostGapPx(mask_.size()), mask_);
-  if (!isFirst(job)) refine(job);
+  // Not at the start: what is left of those who were in view must not stick to those who are, and
+  // is told from them by its contour.
+  if (!isFirst(job)) {
+    job.on.growFaint({smooth_, model_, verdicts_.faint, shown_}, mask_);
+    keepWhole(job);
+  }
+  // What is seen of the model hereafter is at most two pixels from the mask, which grows no more.
+  job.on.thicken(mask_, 2, around_);
+  job.on.paintModelAt(around_, model_, shown_);
+  const bool isInPlace = shift_ == Point{};  // Or the picture as it came is elsewhere.
+  if (!isFirst(job) && isInPlace)
+    for (const BorderLayer layer : {BorderLayer::DrawnIn, BorderLayer::Blurred})
+      job.on.trimBorder({*job.picture, smooth_, model_, shown_, toleranceOf(job)}, layer, mask_);
   job.on.dropSmallParts(mask_, std::max(8u, pixels / 4000));
 }
 
@@ -324,7 +327,6 @@ void ConsensusMethod::dissolveGhosts(const MethodJob& job) {
 
 void ConsensusMethod::findShadow(const MethodJob& job) {
   if (!job.params.findsShadows) return shadow_.clear();
-  job.on.paintModelAt(near_, model_, shown_);
   job.on.findShadows(smooth_, shown_, mask_, dark_);
   job.on.keepMajority(dark_, 1, 128, shadow_);
   job.on.keepOnly(mask_, shadow_);
@@ -383,8 +385,8 @@ void ConsensusMethod::segment(const MethodJob& job, Foreground& out) {
   }
   clean(job);
   dissolveGhosts(job);
-  learnFrame(job);
   findShadow(job);
+  learnFrame(job);
   if (frame_.value() % kContrastFrames == 0) followContrast(job);
   job.on.paintForeground(mask_, shadow_, shift_, out.mask);
 }

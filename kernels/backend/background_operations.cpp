@@ -261,11 +261,13 @@ class GpuOperations final : public Cpu, private Dispatcher {
         [&] {
           const BitTarget before = copyOf(on().read(mask));
           const BorderView view{on().read(evidence.picture), on().read(evidence.smoothed).planes[0],
-                                on().read(evidence.model), evidence.tolerance};
+                                on().read(evidence.model),
+                                on().read(evidence.shown, evidence.model.channels),
+                                evidence.tolerance};
           background::trimBorder(view, layer, before, on().change(mask), stream());
         },
         [&] { Cpu::trimBorder(evidence, layer, mask); }, Reads{evidence.smoothed},
-        Reads{evidence.model}, Changes{mask});
+        Reads{evidence.model}, Reads{evidence.shown}, Changes{mask});
   }
   void thicken(const BitMask& mask, int margin, BitMask& out) override {
     run([&] { rg::gpu::thicken(on().read(mask), margin, on().write(out, mask.size()), stream()); },

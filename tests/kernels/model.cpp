@@ -86,8 +86,8 @@ void launchCleaning(const Memory& m) {
   keepWhole();
   using rg::background::BorderLayer;
   for (const BorderLayer layer : {BorderLayer::DrawnIn, BorderLayer::Blurred})
-    gpu::background::trimBorder({m.planes, m.planes.planes[0], m.model, {5, 20}}, layer, m.bits,
-                                m.bits, stream);
+    gpu::background::trimBorder({m.planes, m.planes.planes[0], m.model, m.planes, {5, 20}}, layer,
+                                m.bits, m.bits, stream);
   gpu::background::dropSmallParts(m.bits, 8, {}, stream);
 }
 

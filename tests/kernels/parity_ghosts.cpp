@@ -223,11 +223,14 @@ void compareBorders(background::BorderLayer layer) {
       Bits there(expected), out(size);
       DevicePlanes smooth(scene.smooth.planes, scene.smooth.channels);
       DeviceModel model(scene.model);
+      std::array<Image<uint8_t>, 3> painted;
+      background::paintModel(scene.model, oneThread(), painted);
+      DevicePlanes shown(painted, scene.model.channels);
       gpu::background::trimBorder(
-          {planesOf(scene.picture), smooth.planes[0], model.view(), tolerance}, layer, there, out,
-          nullptr);
+          {planesOf(scene.picture), smooth.planes[0], model.view(), shown, tolerance}, layer, there,
+          out, nullptr);
       background::ContourScratch scratch;
-      background::trimBorder({scene.picture, scene.smooth, scene.model, tolerance}, layer,
+      background::trimBorder({scene.picture, scene.smooth, scene.model, painted, tolerance}, layer,
                              oneThread(), scratch, expected);
       out.expect(expected, "trimmed");
       trimmedPixels += countSet(maskOf(size, 6)) - countSet(expected);

@@ -34,50 +34,68 @@ enum class BorderLayer : uint8_t {
   Blurred,  ///< Closer to the background than to the inside, on a slope that leads from it inwards.
 };
 
-/// Reads border pixels of a mask in the picture as it came. Mask: at(x, y); Before: the model's
-/// level of a pixel and a channel.
-template <class Mask, class Before>
+inline constexpr int kBorderDepth = 4;  ///< Pixels of a part that lie behind a border pixel.
+
+/// For each side, the set pixels of a word that have an unset one beside them there, and behind
+/// them four that are set. Outside the frame all is set.
+struct BorderSides {
+  uint64_t left = 0, right = 0, above = 0, below = 0;
+
+  [[nodiscard]] constexpr uint64_t any() const { return left | right | above | below; }
+};
+/// wordAt(words to the right, rows down): a word of the mask, what is beyond the frame set.
+template <class WordAt>
+[[nodiscard]] constexpr BorderSides borderSides(uint64_t here, const WordAt& wordAt) {
+  const uint64_t seen = wordAt(0, 0), before = wordAt(-1, 0), after = wordAt(1, 0);
+  const auto leftOf = [&](int columns) { return seen << columns | before >> (64 - columns); };
+  const auto rightOf = [&](int columns) { return seen >> columns | after << (64 - columns); };
+  BorderSides sides{here & ~leftOf(1), here & ~rightOf(1), here & ~wordAt(0, -1),
+                    here & ~wordAt(0, 1)};
+  for (int i = 1; i <= kBorderDepth; ++i) {
+    sides.left &= rightOf(i);
+    sides.right &= leftOf(i);
+    if (sides.above != 0) sides.above &= wordAt(0, i);
+    if (sides.below != 0) sides.below &= wordAt(0, -i);
+  }
+  return sides;
+}
+
+/// Reads border pixels in the picture as it came.
 struct BorderReader {
   const ImageView<const uint8_t>* planes;  ///< As many as there are channels.
+  const ImageView<const uint8_t>* shown;   ///< The model's, painted as far as two pixels around.
   int channels;
-  const Mask& mask;
   Size size;
-  Before before;
 
-  /// Whether a pixel, which is in the mask, goes with the layer, seen from any of the four sides;
+  /// Whether a pixel goes with the layer, seen from one of its sides; bit: the pixel's in the word;
   /// radius: by how much it may be off anyway.
-  [[nodiscard]] constexpr bool isOn(BorderLayer layer, Point p, int radius) const {
-    return isOn(layer, p, {-1, 0}, radius) || isOn(layer, p, {1, 0}, radius) ||
-           isOn(layer, p, {0, -1}, radius) || isOn(layer, p, {0, 1}, radius);
+  [[nodiscard]] constexpr bool isOn(BorderLayer layer, Point p, const BorderSides& sides,
+                                    uint64_t bit, int radius) const {
+    return ((sides.left & bit) != 0 && isOn(layer, p, {-1, 0}, radius)) ||
+           ((sides.right & bit) != 0 && isOn(layer, p, {1, 0}, radius)) ||
+           ((sides.above & bit) != 0 && isOn(layer, p, {0, -1}, radius)) ||
+           ((sides.below & bit) != 0 && isOn(layer, p, {0, 1}, radius));
   }
 
  private:
   [[nodiscard]] constexpr bool isOn(BorderLayer layer, Point p, Point out, int radius) const {
     constexpr int kSide = 3;  // Pixels from the border to what stands for a side.
-    const Point beside = along(p, out, 1);
-    if (!boundsOf(size).contains(beside) || mask.at(beside.x, beside.y) || !isDeep(p, out))
-      return false;
     const int toInside = difference(p, along(p, out, -kSide));
-    if (2 * toInside <= 3 * radius || toInside <= toBackground(p)) return false;
-    return layer == BorderLayer::DrawnIn ? difference(p, along(p, out, kSide)) < toInside
-                                         : isOnSlope(p, out);
+    if (2 * toInside <= 3 * radius) return false;
+    const bool isDrawnIn = layer == BorderLayer::DrawnIn;
+    if (isDrawnIn && difference(p, along(p, out, kSide)) >= toInside) return false;
+    const int off = toBackground(p);
+    return off < toInside && (isDrawnIn || isOnSlope(p, out, off));
   }
-  /// Whether the further in, the further from the background, from one pixel outside to two inside.
-  [[nodiscard]] constexpr bool isOnSlope(Point p, Point out) const {
-    for (int i = -2; i < 1; ++i)
-      if (toBackground(along(p, out, i)) <= toBackground(along(p, out, i + 1))) return false;
-    return true;
+  /// Whether the further in, the further from the background, from one pixel outside to two inside;
+  /// off: how far the pixel itself is.
+  [[nodiscard]] constexpr bool isOnSlope(Point p, Point out, int off) const {
+    if (toBackground(along(p, out, 1)) >= off) return false;
+    const int inside = toBackground(along(p, out, -1));
+    return inside > off && toBackground(along(p, out, -2)) > inside;
   }
   [[nodiscard]] static constexpr Point along(Point p, Point out, int steps) {
     return {p.x + steps * out.x, p.y + steps * out.y};
-  }
-  [[nodiscard]] constexpr bool isDeep(Point p, Point out) const {
-    constexpr int kLeastDepth = 4;
-    for (int i = 1; i <= kLeastDepth; ++i) {
-      const Point q = along(p, out, -i);
-      if (boundsOf(size).contains(q) && !mask.at(q.x, q.y)) return false;
-    }
-    return true;
   }
 
   [[nodiscard]] constexpr int difference(Point p, Point other) const {
@@ -86,7 +104,7 @@ struct BorderReader {
   }
   [[nodiscard]] constexpr int toBackground(Point p) const {
     const Point q = repeated(p);
-    return most([&](int c) { return absDiff(planes[c].at(q.x, q.y), before(q, c)); });
+    return most([&](int c) { return absDiff(planes[c].at(q.x, q.y), shown[c].at(q.x, q.y)); });
   }
   /// Outside the frame its border is repeated.
   [[nodiscard]] constexpr Point repeated(Point p) const {
@@ -99,8 +117,4 @@ struct BorderReader {
     return all;
   }
 };
-template <class Mask, class Before>
-BorderReader(const ImageView<const uint8_t>*, int, const Mask&, Size, Before)
-    -> BorderReader<Mask, Before>;
-
 }  // namespace rg::background

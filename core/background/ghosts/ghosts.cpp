@@ -130,9 +130,15 @@ void followStill(const SmoothPicture& picture, const ConsensusBackground& model,
 
 void addAged(const BitMask& foreground, const StillPixels& still, int64_t leastAge,
              BitMask& places) {
-  forSetPixels(foreground, 0, foreground.height(), [&](int x, int y) {
-    if (still.ages.at(x, y) >= leastAge) places.set(x, y);
-  });
+  if (leastAge > UINT16_MAX) return;
+  const auto least = static_cast<uint16_t>(std::max<int64_t>(0, leastAge));
+  for (int y = 0; y < foreground.height(); ++y)
+    for (int word = 0; word < foreground.wordsPerRow(); ++word) {
+      const uint64_t bits = foreground.row(y)[word];
+      if (bits == 0) continue;
+      const uint16_t* ages = still.ages.row(y) + word * kWordColumns;
+      places.row(y)[word] |= bits & simd::agedColumns(ages, least);
+    }
 }
 
 uint32_t findGhosts(const SmoothPicture& picture, const ConsensusBackground& model,

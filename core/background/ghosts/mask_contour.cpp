@@ -13,20 +13,12 @@ bool isDimmed(const FaintEvidence& evidence, int x, int y) {
       [&](int c) { return +evidence.shown[static_cast<size_t>(c)].at(x, y); });
 }
 
-/// Visits the set pixels of a row that have an unset one beside, above or below.
-template <class Visit>
-void forBorderColumns(const BitMask& mask, int y, Visit&& visit) {
-  const int words = mask.wordsPerRow();
-  const uint64_t* here = mask.row(y);
-  const uint64_t* above = mask.row(std::max(0, y - 1));
-  const uint64_t* below = mask.row(std::min(mask.height() - 1, y + 1));
-  for (int word = 0; word < words; ++word) {
-    if (here[word] == 0) continue;
-    const uint64_t left = here[word] << 1 | (word > 0 ? here[word - 1] >> 63 : 0);
-    const uint64_t right = here[word] >> 1 | (word + 1 < words ? here[word + 1] << 63 : 0);
-    const uint64_t inside = left & right & above[word] & below[word];
-    forSetBits(here[word] & ~inside, word * kWordColumns, visit);
-  }
+BorderSides borderSides(const BitMask& mask, int word, int y) {
+  return background::borderSides(mask.row(y)[word], [&](int right, int down) {
+    const int x = word + right, row = y + down;
+    if (x < 0 || x >= mask.wordsPerRow() || row < 0 || row >= mask.height()) return ~uint64_t{0};
+    return mask.row(row)[x] | ~mask.columnsOf(x);
+  });
 }
 
 }  // namespace
@@ -68,19 +60,24 @@ void trimBorder(const BorderEvidence& evidence, BorderLayer layer, const Executo
   for (int y = 0; y < mask.height(); ++y)
     std::copy_n(mask.row(y), mask.wordsPerRow(), before.row(y));
   const std::array planes{picture.green(), picture.red(), picture.blue()};
-  const auto modelled = [&](Point p, int c) {
-    return modelledLevel([&](int sample) { return +model.sample(p, sample, c); });
-  };
-  const BorderReader reader{planes.data(), model.channels, before, mask.size(), modelled};
+  const std::array<ImageView<const uint8_t>, 3> shown{evidence.shown[0], evidence.shown[1],
+                                                      evidence.shown[2]};
+  const BorderReader reader{planes.data(), shown.data(), model.channels, mask.size()};
   executor.forRows(mask.height(), [&](int first, int last) {
     for (int y = first; y < last; ++y) {
       const RadiusRow radii = radiusRow(model, evidence.tolerance, y);
       const uint8_t* brightness = evidence.smoothed.planes[0].row(y);
-      forBorderColumns(before, y, [&](int x) {
-        const int radius = radiusAt(radii, brightness[x], x);
-        if (reader.isOn(layer, {x, y}, radius))
-          mask.row(y)[x / kWordColumns] &= ~(uint64_t{1} << x % kWordColumns);
-      });
+      for (int word = 0; word < before.wordsPerRow(); ++word) {
+        if (before.row(y)[word] == 0) continue;
+        const BorderSides sides = borderSides(before, word, y);
+        uint64_t gone = 0;
+        forSetBits(sides.any(), word * kWordColumns, [&](int x) {
+          const uint64_t bit = uint64_t{1} << x % kWordColumns;
+          const int radius = radiusAt(radii, brightness[x], x);
+          if (reader.isOn(layer, {x, y}, sides, bit, radius)) gone |= bit;
+        });
+        mask.row(y)[word] &= ~gone;
+      }
     }
   });
 }

@@ -36,6 +36,7 @@ struct BorderEvidence {
   const Picture& picture;  ///< As it came.
   const SmoothPicture& smoothed;
   const ConsensusBackground& model;
+  const std::array<Image<uint8_t>, 3>& shown;  ///< The model, painted to two pixels from the mask.
   Tolerance tolerance;
 };
 /// Clears border pixels that belong to a layer by their colour in the picture, not smoothed:

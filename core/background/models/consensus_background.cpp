@@ -191,7 +191,7 @@ void paintWord(const ConsensusBackground& model, Point word,
                std::array<Image<uint8_t>, 3>& planes) {
   for (int c = 0; c < model.channels; ++c) {
     const uint8_t* first = model.block(word, 0, c);
-    const ptrdiff_t step = model.block(word, kSamples / 4, c) - first;
+    const ptrdiff_t step = model.block(word, kSamples / kMeant, c) - first;
     simd::meanOfFour(first, step, planes[at(c)].row(word.y) + word.x * kWordColumns);
   }
 }

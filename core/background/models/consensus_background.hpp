@@ -56,10 +56,11 @@ struct ConsensusBackground {
   }
 };
 
+inline constexpr int kMeant = 4;  ///< Samples that stand for all.
+
 /// What a few samples of a channel show together; sampleAt(sample).
 template <class SampleAt>
 [[nodiscard]] constexpr int modelledLevel(const SampleAt& sampleAt) {
-  constexpr int kMeant = 4;
   int sum = 0;
   for (int k = 0; k < kMeant; ++k) sum += sampleAt(k * kSamples / kMeant);
   return sum / kMeant;
@@ -121,7 +122,7 @@ void learn(const SmoothPicture& picture, const LearntFrame& seen, const Consensu
 void replaceWhere(const BitMask& places, const SmoothPicture& picture, const Executor& executor,
                   ConsensusBackground& model);
 
-/// The model as a picture: the mean of a few remembered colours.
+/// The model as a picture: modelledLevel of each pixel.
 void paintModel(const ConsensusBackground& model, const Executor& executor,
                 std::array<Image<uint8_t>, 3>& planes);
 /// The same, but only where `places` is set and close to it.

@@ -64,10 +64,13 @@ Halves sumDown(const RowsAround& in, ptrdiff_t x) {
   return add(outer, twice(split(hn::LoadU(kBytes, in.here + x))));
 }
 
+/// What lies to the left of one column lies to the right of the one before the last.
 void smoothVector(const RowsAround& in, int x, uint8_t* out) {
   const Halves half{hn::Set(kWords, 8), hn::Set(kWords, 8)};
-  const Halves sides = add(sumDown(in, x - 1), sumDown(in, x + 1));
-  hn::StoreU(join<4>(add(add(sides, half), twice(sumDown(in, x)))), kBytes, out + x);
+  const Halves left = sumDown(in, x - 1), right = sumDown(in, x + 1);
+  const Halves here{left.odd, right.even};
+  const Halves sides{hn::Add(left.even, right.even), hn::Add(left.odd, right.odd)};
+  hn::StoreU(join<4>(add(add(sides, half), twice(here))), kBytes, out + x);
 }
 
 void smoothRow(const RowsAround& in, uint8_t* out) {
@@ -196,10 +199,9 @@ void followNoiseRow(const ModelRow& row, const NoiseRow& out) {
 }
 
 void meanOfFour(const uint8_t* first, ptrdiff_t step, uint8_t* out) {
-  const Halves half{hn::Set(kWords, 2), hn::Set(kWords, 2)};
   for (size_t i = 0; i < 64; i += hn::Lanes(kBytes)) {
-    Halves sum = half;
-    for (int k = 0; k < 4; ++k) sum = add(sum, split(hn::LoadU(kBytes, first + k * step + i)));
+    Halves sum = split(hn::LoadU(kBytes, first + i));
+    for (int k = 1; k < 4; ++k) sum = add(sum, split(hn::LoadU(kBytes, first + k * step + i)));
     hn::StoreU(join<2>(sum), kBytes, out + i);
   }
 }
@@ -284,7 +286,7 @@ void plain::followNoiseRow(const ModelRow& row, const NoiseRow& out) {
 void plain::meanOfFour(const uint8_t* first, ptrdiff_t step, uint8_t* out) {
   for (int x = 0; x < 64; ++x)
     out[x] = static_cast<uint8_t>(
-        roundShift(first[x] + first[x + step] + first[x + 2 * step] + first[x + 3 * step], 2));
+        (first[x] + first[x + step] + first[x + 2 * step] + first[x + 3 * step]) / 4);
 }
 
 void simd::smoothRow(const RowsAround& in, uint8_t* out) {

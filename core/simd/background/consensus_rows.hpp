@@ -80,7 +80,7 @@ void smoothRow(const RowsAround& in, uint8_t* out);
 void judgeRow(const ModelRow& row, const RadiusRow& radius, const VerdictRow& out);
 /// A quarter of the way, rounded away from the old value; distances count up to 31.
 void followNoiseRow(const ModelRow& row, const NoiseRow& noise);
-/// The rounded mean of 64 columns at first, first + step, first + 2 step and first + 3 step.
+/// The mean, rounded down, of 64 columns at first, first + step, first + 2 step and first + 3 step.
 void meanOfFour(const uint8_t* first, ptrdiff_t step, uint8_t* out);
 }  // namespace simd
 

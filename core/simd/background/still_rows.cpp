@@ -15,6 +15,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace rg::background::HWY_NAMESPACE {
 #if HWY_TARGET == HWY_SCALAR
+using plain::agedColumns;
 using plain::followStillWord;
 #else
 namespace {
@@ -75,6 +76,18 @@ void followStillWord(const StillWord& word, const RadiusRow& radius) {
   }
 }
 
+uint64_t agedColumns(const uint16_t* ages, uint16_t least) {
+  const W limit = hn::Set(kWords, least);
+  uint8_t bits[16] = {};  // StoreMaskBits may write eight bytes.
+  for (size_t i = 0; i < 64; i += hn::Lanes(kWords)) {
+    const W age = hn::LoadU(kWords, ages + i);
+    hn::StoreMaskBits(kWords, hn::Eq(hn::Max(age, limit), age), bits + i / 8);
+  }
+  uint64_t columns;
+  std::memcpy(&columns, bits, sizeof columns);
+  return columns;
+}
+
 }  // namespace
 #endif
 }  // namespace rg::background::HWY_NAMESPACE
@@ -99,12 +112,23 @@ void plain::followStillWord(const StillWord& word, const RadiusRow& radius) {
   }
 }
 
+uint64_t plain::agedColumns(const uint16_t* ages, uint16_t least) {
+  uint64_t columns = 0;
+  for (int x = 0; x < 64; ++x) columns |= static_cast<uint64_t>(ages[x] >= least) << x;
+  return columns;
+}
+
 namespace {
 HWY_EXPORT(followStillWord);
+HWY_EXPORT(agedColumns);
 }  // namespace
 
 void simd::followStillWord(const StillWord& word, const RadiusRow& radius) {
   HWY_DYNAMIC_DISPATCH(followStillWord)(word, radius);
+}
+
+uint64_t simd::agedColumns(const uint16_t* ages, uint16_t least) {
+  return HWY_DYNAMIC_DISPATCH(agedColumns)(ages, least);
 }
 
 }  // namespace rg::background

@@ -34,10 +34,13 @@ namespace plain {
 /// others younger; those of age 0 keep their present colour from now on. Columns of the background
 /// have age 0.
 void followStillWord(const StillWord& word, const RadiusRow& radius);
+/// Which of a word's 64 columns are at least of that age.
+[[nodiscard]] uint64_t agedColumns(const uint16_t* ages, uint16_t least);
 }  // namespace plain
 
 namespace simd {
 void followStillWord(const StillWord& word, const RadiusRow& radius);
+[[nodiscard]] uint64_t agedColumns(const uint16_t* ages, uint16_t least);
 }  // namespace simd
 
 }  // namespace rg::background

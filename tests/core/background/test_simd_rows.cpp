@@ -254,6 +254,10 @@ TEST(SimdRows, StillPixelsAreThePlainOnes) {
                                                radius);
             background::simd::followStillWord(out.word(scene, at, mostAge, foreground), radius);
           }
+        for (int at = 0; at < kMostColumns / 64; ++at)
+          for (const uint16_t least : std::array<uint16_t, 5>{0, 1, 2, 32768, 65535})
+            EXPECT_EQ(background::simd::agedColumns(out.ages.row(0) + 64 * at, least),
+                      background::plain::agedColumns(out.ages.row(0) + 64 * at, least));
         for (int x = 0; x < out.ages.width(); ++x)
           ASSERT_EQ(out.ages.at(x, 0), expected.ages.at(x, 0)) << "column " << x;
         for (int c = 0; c < 3; ++c)

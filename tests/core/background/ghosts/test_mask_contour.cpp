@@ -47,8 +47,9 @@ class MaskContour : public ::testing::Test {
     background::growFaint({smooth_, model_, bits, shown_}, Executor(2), cleaning_, scratch_, mask_);
   }
   void trim(BorderLayer layer = BorderLayer::DrawnIn) {
-    background::trimBorder({*picture_, smooth_, model_, {10, 0}}, layer, Executor(2), scratch_,
-                           mask_);
+    background::paintModel(model_, Executor(2), shown_);
+    background::trimBorder({*picture_, smooth_, model_, shown_, {10, 0}}, layer, Executor(2),
+                           scratch_, mask_);
   }
 
   std::shared_ptr<const Picture> picture_;
@@ -147,9 +148,10 @@ TEST_F(MaskContour, TheSmallestMasksWork) {
     mask.clear();
     for (int y = 0; y < size.height; ++y) setColumns(mask.row(y), 0, size.width, true);
     background::growFaint({smooth_, model_, mask, shown_}, Executor(1), cleaning_, scratch_, mask);
+    background::paintModel(model_, Executor(1), shown_);
     for (const BorderLayer layer : {BorderLayer::DrawnIn, BorderLayer::Blurred})
-      background::trimBorder({*picture, smooth_, model_, {10, 0}}, layer, Executor(1), scratch_,
-                             mask);
+      background::trimBorder({*picture, smooth_, model_, shown_, {10, 0}}, layer, Executor(1),
+                             scratch_, mask);
     EXPECT_EQ(countSet(mask), static_cast<uint32_t>(size.area()));
   }
 }
