@@ -84,6 +84,8 @@ void launchCleaning(const Memory& m) {
                    m.bits, stream);
   gpu::background::growFaint(m.planes, m.model, m.bits, {m.bits, m.bits, m.bits}, m.bits, stream);
   keepWhole();
+  gpu::thicken(m.bits, 2, m.bits, stream);
+  gpu::background::paintModelAt(m.bits, m.model, m.targets, stream);
   using rg::background::BorderLayer;
   for (const BorderLayer layer : {BorderLayer::DrawnIn, BorderLayer::Blurred})
     gpu::background::trimBorder({m.planes, m.planes.planes[0], m.model, m.planes, {5, 20}}, layer,
@@ -112,15 +114,14 @@ void launchBackground(const Memory& m) {
   submit();
   launchCleaning(m);
   launchGhosts(m);
-  gpu::thicken(m.bits, 2, m.bits, stream);
-  gpu::background::learn(m.planes, {m.bits, m.bits, m.bits, m.bits, m.bits}, {1, 16, false},
-                         m.model, stream);
-  gpu::background::paintModelAt(m.bits, m.model, m.targets, stream);
   const background::ColourPlanes planes{m.planes.planes[0], m.planes.planes[1], m.planes.planes[2]};
   gpu::background::findShadows(planes, planes, m.bits, m.bits, stream);
   gpu::background::keepMajority(m.bits, 1, 128, m.bits, stream);
   gpu::keepOnly(m.bits, m.bits, stream);
   gpu::background::keepCastShadows(m.bits, m.bits, {}, stream);
+  gpu::thicken(m.bits, 2, m.bits, stream);
+  gpu::background::learn(m.planes, {m.bits, m.bits, m.bits, m.bits, m.bits}, {1, 16, false},
+                         m.model, stream);
   gpu::background::paintForeground(m.bits, m.bits, {}, m.targets.planes[0], stream);
   submit();
 }

@@ -42,7 +42,7 @@ bool areOneBody(const TrackerState& state, const GroupGrid& e, size_t a, size_t 
 void takeLooks(Track& from, Track& to) {
   to.look = from.look;
   to.colour = from.colour;
-  to.portrait = std::move(from.portrait);
+  std::swap(to.portrait, from.portrait);
   to.centreX = from.centreX;
   to.centreY = from.centreY;
   to.centreSamples = from.centreSamples;
