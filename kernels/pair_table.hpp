@@ -3,8 +3,9 @@
 // ends depends on the order of the threads, its sum does not.
 #pragma once
 
+#include "core/base/bits.hpp"
+
 #include <algorithm>
-#include <bit>
 #include <cstdint>
 
 namespace rg::gpu {
@@ -16,7 +17,7 @@ struct PairTable {
 
 /// How many slots so many different pairs take: a power of two, at least half of them free.
 [[nodiscard]] constexpr uint32_t slotsFor(uint64_t pairs) {
-  return static_cast<uint32_t>(std::bit_ceil(std::max(uint64_t{64}, 2 * pairs)));
+  return bitCeil(static_cast<uint32_t>(std::max(uint64_t{64}, 2 * pairs)));
 }
 
 [[nodiscard]] constexpr unsigned long long pairKey(uint32_t a, uint32_t b) {

@@ -8,7 +8,8 @@ Arrows only point left: core <- kernels <- gst <- examples; tests may see all. I
 base <- background <- segmentation <- graph <- motion <- objects <- detection <- text, and of
 another room only its contract is included (core/motion/motion.hpp), but all of base; kernels take
 arithmetic from all of core. No element includes another one, except regiontrack, which is made of
-them, and plugin, which registers them. No two types of core have one qualified name.
+them, and plugin, which registers them. No two types of core have one qualified name. What a device
+may call counts bits by core/base/bits.hpp.
 Prints one line per finding and exits 1 when there is any.
 """
 import collections
@@ -39,6 +40,8 @@ NAMESPACE = re.compile(r'^(?:inline )?namespace(?: ([\w:]+))? \{$')
 TYPE = re.compile(r'^(?:(?:struct|class|union|enum(?: class)?) (?:\[\[\w+\]\] )?(\w+)\b(?!::)[^;]*'
                   r'|using (\w+) =.*)$')
 SUBJECT = re.compile(r'^([a-z][a-z0-9.-]*: \S.*[^.\s]|Revert ".*")$')
+COUNTS_BITS = re.compile(r'std::(bit_(ceil|floor|width)|count[lr]_(zero|one)|popcount|'
+                         r'has_single_bit)')
 MAX_SUBJECT = 72
 CHECKED_COMMITS = 10
 
@@ -173,6 +176,21 @@ def function_findings(lines):
                 start = None
 
 
+def device_findings(relative, lines):
+    """Bits counted by std where a device may do so: of 64 bits, and zeros from below of any number,
+    nvcc makes constants without a word."""
+    in_kernels = relative.parts[0] == 'kernels' and relative.parts[1] not in ('backend', 'shim')
+    in_header = relative.parts[0] == 'core' and relative.suffix == '.hpp'
+    if not (in_kernels or in_header) or relative.as_posix() == 'core/base/bits.hpp':
+        return
+    begin = ''
+    for number, line in enumerate(lines, 1):
+        if re.match(r' {0,2}[\w\[]', line) and '(' in line and not line.endswith(';'):
+            begin = line
+        if COUNTS_BITS.search(line) and (in_kernels or 'constexpr' in begin):
+            yield number, 'devices must not count bits by std: core/base/bits.hpp'
+
+
 def text_findings(relative, text):
     lines = text.split('\n')
     for number, line in enumerate(lines, 1):
@@ -204,6 +222,7 @@ def file_findings(root, path):
         yield 1, 'no SPDX line'
     if path.suffix in CODE:
         yield from arrow_findings(relative, lines)
+        yield from device_findings(relative, lines)
     if path.suffix in CODE and relative.parts[0] != 'tests':
         yield from function_findings(lines)
         if len(lines) > MAX_FILE_LINES:

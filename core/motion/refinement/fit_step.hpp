@@ -4,12 +4,12 @@
 // Determinism: integers; blocks of two unknowns are solved in turn, a fixed number of times.
 #pragma once
 
+#include "core/base/bits.hpp"
 #include "core/base/pixel.hpp"
 #include "core/motion/fit_moments.hpp"
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 
@@ -131,7 +131,7 @@ constexpr void normalise(const FitMoments& moments, FitEquations& e) {
 
 /// By how many bits a number is wider than `bits`.
 [[nodiscard]] constexpr int excessBits(int64_t number, int bits) {
-  const int excess = static_cast<int>(std::bit_width(static_cast<uint64_t>(number))) - bits;
+  const int excess = bitWidth(static_cast<uint64_t>(number)) - bits;
   return excess < 0 ? 0 : excess;
 }
 

@@ -12,11 +12,12 @@
 #include <mutex>
 #include <new>
 #include <pthread.h>
+#include <sys/mman.h>
 
 namespace rg::test {
 namespace {
 
-constexpr size_t kArenaBytes = size_t{1} << 30, kStackBytes = size_t{64} << 20;
+constexpr size_t kArenaBytes = size_t{1} << 29, kStackBytes = size_t{64} << 20;
 /// Every block begins with as much of its own, so that what follows is aligned like this.
 constexpr size_t kAlign = 256;
 
@@ -68,7 +69,7 @@ class Arena {
 };
 
 Arena arena;
-std::atomic<bool> isManaged = false;
+std::atomic<bool> isShared = false;
 
 void* callAndLeave(void* run) {
   const int status = reinterpret_cast<int (*)()>(run)();
@@ -78,7 +79,7 @@ void* callAndLeave(void* run) {
 
 void* takeMemory(size_t bytes, size_t align) {
   void* memory = nullptr;
-  if (isManaged && align <= kAlign)
+  if (isShared && align <= kAlign)
     memory = arena.take(bytes);
   else
     memory = std::aligned_alloc(align, (bytes + align - 1) / align * align);
@@ -96,22 +97,31 @@ void giveMemory(void* memory) {
 }  // namespace
 
 int callInGpuMemory(int (*run)()) {
-  void* memory = nullptr;
-  const cudaError_t code = cudaMallocManaged(&memory, kArenaBytes + kStackBytes);
-  pthread_attr_t attributes;
-  pthread_t thread{};
-  if (code != cudaSuccess) {
-    std::fprintf(stderr, "no managed memory: %s\n", cudaGetErrorString(code));
+  void* const memory = mmap(nullptr, kArenaBytes + kStackBytes, PROT_READ | PROT_WRITE,
+                            MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (memory == MAP_FAILED) {
+    std::perror("mmap");
     std::_Exit(1);
   }
+  const cudaError_t code =
+      cudaHostRegister(memory, kArenaBytes + kStackBytes, cudaHostRegisterMapped);
+  void* seen = nullptr;
+  if (code != cudaSuccess || cudaHostGetDevicePointer(&seen, memory, 0) != cudaSuccess ||
+      seen != memory) {
+    std::fprintf(stderr, "the device does not see the host's memory: %s\n",
+                 cudaGetErrorString(code));
+    std::_Exit(1);
+  }
+  pthread_attr_t attributes;
+  pthread_t thread{};
   auto* const stack = static_cast<std::byte*>(memory);
   arena.begin(stack + kStackBytes, kArenaBytes);
-  isManaged = true;
+  isShared = true;
   if (pthread_attr_init(&attributes) == 0 &&
       pthread_attr_setstack(&attributes, stack, kStackBytes) == 0 &&
       pthread_create(&thread, &attributes, callAndLeave, reinterpret_cast<void*>(run)) == 0)
     pthread_join(thread, nullptr);
-  std::fprintf(stderr, "no thread on managed memory\n");
+  std::fprintf(stderr, "no thread on memory that the device sees\n");
   std::_Exit(1);
 }
 
