@@ -175,7 +175,8 @@ void parity_findConsensus() {
       const auto level = [&](uint32_t what) { return static_cast<uint8_t>(hashOf(i, 2, what)); };
       region.colour = {level(1), level(2), level(3)};
       graph.regions.push_back(region);
-      const int known = i % 3 == 0 ? 0 : 1 << (i % 20);
+      // Up to as many bits as there may be, whose products are too wide.
+      const int known = i % 3 == 0 ? 0 : 1 << (i % 30);
       // Equal ones: the first of them counts.
       own.push_back({{draw(i / 4, 3, 1, 900), draw(i / 4, 3, 2, 900)},
                      {known, draw(i, 3, 4, 1 + known / 4), known / 2}});
