@@ -3,7 +3,7 @@
 // ends depends on the order of the threads, its sum does not.
 #pragma once
 
-#include "core/base/bits.hpp"
+#include "core/base/pixel.hpp"
 
 #include <algorithm>
 #include <cstdint>

@@ -9,7 +9,7 @@ base <- background <- segmentation <- graph <- motion <- objects <- detection <-
 another room only its contract is included (core/motion/motion.hpp), but all of base; kernels take
 arithmetic from all of core. No element includes another one, except regiontrack, which is made of
 them, and plugin, which registers them. No two types of core have one qualified name. What a device
-may call counts bits by core/base/bits.hpp.
+may call counts bits by core/base/pixel.hpp.
 Prints one line per finding and exits 1 when there is any.
 """
 import collections
@@ -181,14 +181,14 @@ def device_findings(relative, lines):
     nvcc makes constants without a word."""
     in_kernels = relative.parts[0] == 'kernels' and relative.parts[1] not in ('backend', 'shim')
     in_header = relative.parts[0] == 'core' and relative.suffix == '.hpp'
-    if not (in_kernels or in_header) or relative.as_posix() == 'core/base/bits.hpp':
+    if not (in_kernels or in_header) or relative.as_posix() == 'core/base/pixel.hpp':
         return
     begin = ''
     for number, line in enumerate(lines, 1):
         if re.match(r' {0,2}[\w\[]', line) and '(' in line and not line.endswith(';'):
             begin = line
         if COUNTS_BITS.search(line) and (in_kernels or 'constexpr' in begin):
-            yield number, 'devices must not count bits by std: core/base/bits.hpp'
+            yield number, 'devices must not count bits by std: core/base/pixel.hpp'
 
 
 def text_findings(relative, text):

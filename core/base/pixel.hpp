@@ -47,6 +47,23 @@ static_assert(divideRounded(5, 2) == 3 && divideRounded(-5, 2) == -3 && divideRo
 }
 static_assert(integerSqrt(15) == 3 && integerSqrt(16) == 4 && integerSqrt(~0ull) == 0xFFFFFFFF);
 
+// What <bit> counts: of std's functions of 64 bits nvcc makes constants in the code of devices, and
+// says nothing.
+
+/// How many bits it takes to write the number; none for 0.
+[[nodiscard]] constexpr int bitWidth(uint64_t number) {
+  const auto upper = static_cast<uint32_t>(number >> 32);
+  return static_cast<int>(upper != 0 ? 32 + std::bit_width(upper)
+                                     : std::bit_width(static_cast<uint32_t>(number)));
+}
+static_assert(bitWidth(0) == 0 && bitWidth(1) == 1 && bitWidth(0xFFFFFFFF) == 32 &&
+              bitWidth(uint64_t{1} << 32) == 33 && bitWidth(~uint64_t{0}) == 64);
+
+/// The least power of two that is not less than the number, which must be at most 2^31.
+[[nodiscard]] constexpr uint32_t bitCeil(uint32_t number) {
+  return std::bit_ceil(number);
+}
+
 /// Counter-based mixing of a position and a time: the same number on every backend.
 [[nodiscard]] constexpr uint32_t mixHash(uint32_t a, uint32_t b, uint32_t c) {
   uint32_t h = a * 0x9E3779B1u ^ std::rotl(b * 0x85EBCA77u, 13) ^ std::rotl(c * 0xC2B2AE3Du, 26);

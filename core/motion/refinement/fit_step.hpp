@@ -4,7 +4,6 @@
 // Determinism: integers; blocks of two unknowns are solved in turn, a fixed number of times.
 #pragma once
 
-#include "core/base/bits.hpp"
 #include "core/base/pixel.hpp"
 #include "core/motion/fit_moments.hpp"
 
