@@ -102,8 +102,7 @@ __global__ void judgeShifts(const unsigned long long* allSums, int firstRegion, 
   unsigned long long key = ~0ull, total = 0;
   for (int i = first; i < count; i += kReduceThreads) {
     const Point d = shiftOf(i);
-    const bool isAllowed = std::max(std::max(d.x, -d.x), std::max(d.y, -d.y)) <= range.maxShift;
-    if (isAllowed) key = Least{}(key, keyOf(sums[i], d));
+    if (range.allows(d)) key = Least{}(key, keyOf(sums[i], d));
     total += sums[i];
   }
   key = reduceBlock(key, values, Least{});

@@ -138,8 +138,7 @@ __global__ void chooseShifts(const __grid_constant__ MatchedRegions regions, int
   unsigned long long key = ~0ull, bound = 0;
   for (int i = first; i < count; i += kReduceThreads) {
     const Point d = shiftOf(i);
-    const bool isAllowed = std::max(std::max(d.x, -d.x), std::max(d.y, -d.y)) <= range.maxShift;
-    if (isAllowed) key = Least{}(key, keyOf(sums[i], d));
+    if (range.allows(d)) key = Least{}(key, keyOf(sums[i], d));
     bound += bounds[i];
   }
   key = reduceBlock(key, values, Least{});

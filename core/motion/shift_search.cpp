@@ -4,7 +4,6 @@
 #include "core/base/pixel.hpp"
 
 #include <algorithm>
-#include <cstdlib>
 #include <cstring>
 #include <tuple>
 
@@ -56,8 +55,7 @@ FoundShift searchShiftsPlainly(std::span<const MatchedPart> parts, ImageView<con
       const Shifted shifted{luma, previous, {-dx, -dy}};
       sums.push_back(sumPlainly(parts, shifted));
       bounds += boundPlainly(parts, shifted);
-      if (std::max(std::abs(dx), std::abs(dy)) <= range.maxShift)
-        best = std::min(best, {sums.back(), dx * dx + dy * dy, dy, dx});
+      if (range.allows({dx, dy})) best = std::min(best, {sums.back(), dx * dx + dy * dy, dy, dx});
     }
   FoundShift found;
   found.isWithin = std::get<0>(best) <= range.mostSum;

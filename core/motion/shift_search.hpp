@@ -43,6 +43,12 @@ struct ShiftRange {
   int maxShift = 0;
   int reach = 0;
   uint32_t mostSum = UINT32_MAX;  ///< A best sum above it is not told.
+
+  /// Whether a shift may be the best one. (Not by maxima of magnitudes, of which nvcc 13.0 makes
+  /// code that takes the leftmost shifts for such: tests/kernels/resources.py.)
+  [[nodiscard]] constexpr bool allows(Point d) const {
+    return d.x >= -maxShift && d.x <= maxShift && d.y >= -maxShift && d.y <= maxShift;
+  }
 };
 
 /// Blocks of 4x1 pixels and boxes of a region, and where in the previous picture, without a shift.

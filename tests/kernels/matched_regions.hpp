@@ -67,21 +67,22 @@ struct Regions {
 /// The picture before, and what moved a little since then, but for the upper half of it.
 struct MovedPicture {
   Image<uint8_t> before, now;
-  MovedPicture(Size size, int fill) : before(filled(size, fill)), now(size) {
+  MovedPicture(Size size, int fill, Point by) : before(filled(size, fill)), now(size) {
     for (int y = 0; y < size.height; ++y)
       for (int x = 0; x < size.width; ++x)
-        now.at(x, y) = y < size.height / 2
-                           ? before.at(x, y)
-                           : static_cast<uint8_t>(levelAt(fill, x + 2, y + 1) + (x * y % 7 == 0));
+        now.at(x, y) =
+            y < size.height / 2
+                ? before.at(x, y)
+                : static_cast<uint8_t>(levelAt(fill, x - by.x, y - by.y) + (x * y % 7 == 0));
   }
 };
 
 template <class Check>
-void forMoved(const Check& check) {
+void forMoved(const Check& check, Point by = {-2, -1}) {
   for (const Size size : {Size{4, 1}, Size{13, 9}, Size{47, 40}, Size{64, 65}})
     for (int fill = 0; fill < kFills && !::testing::Test::HasFailure(); ++fill) {
       SCOPED_TRACE(std::to_string(size.width) + ", fill " + std::to_string(fill));
-      check(MovedPicture(size, fill), Regions(size));
+      check(MovedPicture(size, fill, by), Regions(size));
     }
 }
 

@@ -7,6 +7,7 @@
 #include "tests/kernels/matched_regions.hpp"
 #include "tests/kernels/parity.hpp"
 
+#include <array>
 #include <span>
 #include <tuple>
 #include <vector>
@@ -16,6 +17,7 @@ namespace {
 
 using motion::FoundShift;
 using motion::MatchedPart;
+using motion::ShiftRange;
 
 template <class Check>
 void forPadded(const Check& check) {
@@ -37,8 +39,13 @@ void expectSame(const FoundShift& found, const FoundShift& expected) {
   ASSERT_EQ(found.isBeaten, expected.isBeaten);
 }
 
-void checkSearch(Size size, int fill, const motion::ShiftRange& range) {
-  const MovedPicture moved(size, fill);
+/// Moves just outside of a range of up to 3 px: along x, y and both.
+constexpr std::array kOutside{Point{-4, 1}, Point{4, -2}, Point{1, -4},
+                              Point{-3, 4}, Point{4, 4},  Point{-4, -4}};
+
+/// Returns of how many regions a shift that is not allowed is the best.
+int checkSearch(const MovedPicture& moved, const ShiftRange& range) {
+  const Size size = moved.now.size();
   const Image<uint8_t>&before = moved.before, &now = moved.now;
   motion::SearchedPicture searched;
   searched.build(before, range.reach + 1, oneThread());
@@ -59,11 +66,27 @@ void checkSearch(Size size, int fill, const motion::ShiftRange& range) {
       {luma, previous.view, {sums}}, range, {scratch.data(), scratch.data() + room, kTogether},
       found.data(), nullptr);
   motion::SearchScratch coreScratch;
+  int beaten = 0;
   for (int i = 0; i < regions.count(); ++i) {
     const auto at = static_cast<size_t>(i);
-    const motion::ShiftRange& own = still[at] != 0 ? motion::kStillRange : range;
-    expectSame(found[at], motion::searchShifts(regions.of(i), now, searched, own, coreScratch));
+    const ShiftRange& own = still[at] != 0 ? motion::kStillRange : range;
+    const FoundShift expected =
+        motion::searchShifts(regions.of(i), now, searched, own, coreScratch);
+    expectSame(found[at], expected);
+    beaten += expected.isBeaten;
   }
+  return beaten;
+}
+
+/// The same, of pictures of several sizes.
+int searchIn(Point by, const ShiftRange& range) {
+  int beaten = 0;
+  for (const Size size : {Size{4, 1}, Size{13, 9}, Size{47, 40}, Size{64, 33}})
+    for (int fill = 0; fill < kFills && !::testing::Test::HasFailure(); ++fill) {
+      SCOPED_TRACE(::testing::Message() << size.width << ", fill " << fill);
+      beaten += checkSearch(MovedPicture(size, fill, by), range);
+    }
+  return beaten;
 }
 
 }  // namespace
@@ -102,12 +125,9 @@ void parity_sumBoxes() {
 }
 
 void parity_searchShifts() {
-  for (const Size size : {Size{4, 1}, Size{13, 9}, Size{47, 40}, Size{64, 33}})
-    for (int fill = 0; fill < kFills && !::testing::Test::HasFailure(); ++fill) {
-      SCOPED_TRACE(std::to_string(size.width) + ", fill " + std::to_string(fill));
-      checkSearch(size, fill, {2, 3});
-      checkSearch(size, fill, {8, 9});
-    }
+  for (const ShiftRange& range : {ShiftRange{2, 3}, ShiftRange{8, 9}, ShiftRange{20, 21}})
+    searchIn({-2, -1}, range);
+  for (const Point by : kOutside) EXPECT_GT(searchIn(by, {3, 4}), 0) << by.x << ", " << by.y;
 }
 
 void parity_findStill() {
@@ -199,48 +219,51 @@ struct RunsOfRegions {
 
 /// Calls check(moved, padded, runs, list).
 template <class Check>
-void forLiteral(int reach, const Check& check) {
-  forMoved([&](const MovedPicture& moved, const Regions&) {
+void forLiteral(Point by, int reach, const Check& check) {
+  const auto checkMoved = [&](const MovedPicture& moved, const Regions&) {
     motion::PaddedLuma padded;
     padded.build(moved.before, reach, oneThread());
     const RunsOfRegions runs(moved.now.size());
     gpu::motion::LiteralList list;
     list.build(runs.list, runs.starts);
     check(moved, padded, runs, list);
-  });
+  };
+  forMoved(checkMoved, by);
 }
 
 }  // namespace
 
 void parity_sumAllShifts() {
   constexpr int kReach = 3, kShifts = 49;
-  forLiteral(kReach, [](const MovedPicture& moved, const motion::PaddedLuma& padded,
-                        const RunsOfRegions& runs, const gpu::motion::LiteralList& list) {
-    const gpu::motion::LiteralRegions regions{runs.list.data(), list.chunks.data(), list};
-    Plane<uint8_t> rows(padded.rows());
-    // All but the first region.
-    const auto count = static_cast<int>(runs.count()) - 1;
-    if (count == 0) return;
-    Guarded<unsigned long long> sums(
-        std::vector<unsigned long long>(static_cast<size_t>(count * kShifts), 7), 0xA5A5);
-    gpu::motion::sumAllShifts(regions, {1, count}, Plane<uint8_t>(moved.now.view()),
-                              {moved.now.size(), padded.reach(), rows}, kReach, sums.data(),
-                              nullptr);
-    std::vector<unsigned long long> expected;
-    std::vector<uint64_t> of;
-    for (size_t region = 1; region < runs.count(); ++region) {
-      motion::sumAllShifts(runs.of(region), moved.now, padded, kReach, of);
-      expected.insert(expected.end(), of.begin(), of.end());
-    }
-    sums.expect(expected, [](auto a, auto b) { return a == b; });
-  });
+  forLiteral(
+      {-2, -1}, kReach,
+      [](const MovedPicture& moved, const motion::PaddedLuma& padded, const RunsOfRegions& runs,
+         const gpu::motion::LiteralList& list) {
+        const gpu::motion::LiteralRegions regions{runs.list.data(), list.chunks.data(), list};
+        Plane<uint8_t> rows(padded.rows());
+        // All but the first region.
+        const auto count = static_cast<int>(runs.count()) - 1;
+        if (count == 0) return;
+        Guarded<unsigned long long> sums(
+            std::vector<unsigned long long>(static_cast<size_t>(count * kShifts), 7), 0xA5A5);
+        gpu::motion::sumAllShifts(regions, {1, count}, Plane<uint8_t>(moved.now.view()),
+                                  {moved.now.size(), padded.reach(), rows}, kReach, sums.data(),
+                                  nullptr);
+        std::vector<unsigned long long> expected;
+        std::vector<uint64_t> of;
+        for (size_t region = 1; region < runs.count(); ++region) {
+          motion::sumAllShifts(runs.of(region), moved.now, padded, kReach, of);
+          expected.insert(expected.end(), of.begin(), of.end());
+        }
+        sums.expect(expected, [](auto a, auto b) { return a == b; });
+      });
 }
 
 void parity_matchAllPixels() {
-  constexpr motion::ShiftRange kRange{3, 4};
+  constexpr ShiftRange kRange{3, 4};
   int moving = 0;
-  forLiteral(5, [&](const MovedPicture& moved, const motion::PaddedLuma& padded,
-                    const RunsOfRegions& runs, const gpu::motion::LiteralList& list) {
+  const auto check = [&](const MovedPicture& moved, const motion::PaddedLuma& padded,
+                         const RunsOfRegions& runs, const gpu::motion::LiteralList& list) {
     const gpu::motion::LiteralRegions regions{runs.list.data(), list.chunks.data(), list};
     Plane<uint8_t> rows(padded.rows());
     constexpr int kAtOnce = 2;
@@ -261,8 +284,10 @@ void parity_matchAllPixels() {
           << region;
       moving += expected.dx != 0 && expected.reliability > 0;
     }
-  });
+  };
+  forLiteral({-2, -1}, 5, check);
   EXPECT_GT(moving, 0);
+  for (const Point by : kOutside) forLiteral(by, 5, check);
 }
 
 }  // namespace rg::test

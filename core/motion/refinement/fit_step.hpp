@@ -224,8 +224,9 @@ constexpr bool takeStep(const FitMoments& moments, const FitStart& start, const 
   solve(e);
   const int most = start.reach * kFine;
   const auto moved = [&](int at, int64_t by, int origin) {
-    return std::clamp(at + static_cast<int>(by), std::max(origin - kFine * 3 / 2, -most),
-                      std::min(origin + kFine * 3 / 2, most));
+    const int near =
+        std::clamp(at + static_cast<int>(by), origin - kFine * 3 / 2, origin + kFine * 3 / 2);
+    return std::clamp(near, -most, most);
   };
   fit.at = {moved(fit.at.x, e.step[0], start.at.x), moved(fit.at.y, e.step[1], start.at.y)};
   bool isSettled = true;
