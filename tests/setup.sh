@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: LGPL-2.1-or-later
-# Installs the Debian packages that the build, the tests and the demo need. Does nothing when all of
-# them are there. Needs root or sudo only when something is missing.
+# Installs the Debian packages that the build, the tests and the demo need, and what more can be
+# built with where CUDA's compiler is. Does nothing when all of them are there. Needs root or sudo
+# only when something is missing.
 set -euo pipefail
 
 packages=(
@@ -19,6 +20,10 @@ packages=(
   gstreamer1.0-tools gstreamer1.0-plugins-base gstreamer1.0-plugins-good gstreamer1.0-plugins-bad
   gstreamer1.0-libav
 )
+# Frames in a GPU's memory; the build goes without.
+optional=()
+PATH=$PATH:/usr/local/cuda/bin
+! command -v nvcc >/dev/null || optional=(libgstreamer-plugins-bad1.0-dev)
 
 installed() { dpkg-query -W -f '${Status}\n' "$1" 2>/dev/null | grep -q 'ok installed'; }
 
@@ -26,25 +31,33 @@ missing=()
 for package in "${packages[@]}"; do
   installed "$package" || missing+=("$package")
 done
-((${#missing[@]})) || exit 0
+wanted=()
+for package in "${optional[@]}"; do
+  installed "$package" || wanted+=("$package")
+done
+((${#missing[@]} + ${#wanted[@]})) || exit 0
 
 as_root=()
 if ((EUID)); then
   if ! command -v sudo >/dev/null; then
+    ((${#missing[@]})) || exit 0
     echo "setup: these packages are missing; as root, run: apt-get install ${missing[*]}" >&2
     exit 1
   fi
   as_root=(sudo)
 fi
 
-echo "setup: installing ${missing[*]}"
+echo "setup: installing ${missing[*]} ${wanted[*]}"
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
 apt() { "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -q -y "$@" >"$log" 2>&1; }
 # A list of packages that is out of date is no reason to fail while what is needed can be had.
 apt update || echo "setup: apt-get update failed; trying with the package lists as they are" >&2
-if ! apt install --no-install-recommends "${missing[@]}"; then
+if ((${#missing[@]})) && ! apt install --no-install-recommends "${missing[@]}"; then
   tail -n 20 "$log" >&2
   echo "setup: apt-get install failed: ${missing[*]}" >&2
   exit 1
+fi
+if ((${#wanted[@]})) && ! apt install --no-install-recommends "${wanted[@]}"; then
+  echo "setup: going without ${wanted[*]}, which can't be installed" >&2
 fi
