@@ -14,6 +14,7 @@ PATH=$PATH:/usr/local/cuda/bin
 parts=("$@")
 ((${#parts[@]})) || parts=(parity checkers times)
 failed=()
+processes=$(nproc)
 
 step() {  # NAME COMMAND...
   local name=$1 begin=$SECONDS
@@ -26,18 +27,51 @@ step() {  # NAME COMMAND...
   echo "($name: $((SECONDS - begin)) s)"
 }
 
-run_parity() {
-  step 'operations against the CPU' "$here/parity-gpu" --gtest_brief=1
-  step 'stages against the CPU' "$here/backend-gpu" --gtest_brief=1
+# The tests of a program, dealt to COUNT processes that run side by side.
+in_shards() {  # COUNT COMMAND...
+  local count=$1 logs i status=0
+  shift
+  logs=$(mktemp -d)
+  for ((i = 0; i < count; i++)); do
+    (
+      export GTEST_TOTAL_SHARDS=$count GTEST_SHARD_INDEX=$i
+      "$@" >"$logs/$i" 2>&1
+      echo $? >"$logs/$i.status"
+    ) &
+  done
+  wait
+  for ((i = 0; i < count; i++)); do
+    local shard
+    shard=$(<"$logs/$i.status")
+    ((shard == 0)) && continue
+    status=$shard
+    printf -- '-- part %d of %d: exit status %d\n' $((i + 1)) "$count" "$shard"
+    tail -n 60 "$logs/$i"
+  done
+  echo "passed: $(cat "$logs"/* | grep -c '^\[       OK \]')," \
+    "skipped: $(cat "$logs"/* | grep -c '^\[  SKIPPED \] .*ms)$')"
+  rm -r "$logs"
+  return "$status"
 }
 
-# With plain device memory, as elements have it; racecheck and synccheck on what has barriers.
+run_parity() {
+  step 'operations against the CPU' in_shards "$processes" "$here/parity-gpu"
+  step 'stages against the CPU' in_shards "$processes" "$here/backend-gpu"
+}
+
+# Memory where kernels have plain device memory, as in elements; what threads of a block share, in
+# each operation. It takes long: a checker slows a program down by hundreds.
 run_checkers() {
   command -v compute-sanitizer >/dev/null || { echo 'not run: no compute-sanitizer here'; return; }
-  local tool
-  for tool in memcheck initcheck racecheck synccheck; do
-    step "$tool" compute-sanitizer --tool "$tool" --error-exitcode 1 "$here/backend-gpu" \
-      --gtest_brief=1 --gtest_filter='*TheSameOnADevice'
+  local checker=(compute-sanitizer --error-exitcode 1)
+  local tool stages=6
+  for tool in memcheck initcheck; do
+    step "$tool, stages" in_shards "$stages" "${checker[@]}" --tool "$tool" "$here/backend-gpu" \
+      --gtest_filter='*TheSameOnADevice'
+  done
+  for tool in racecheck synccheck; do
+    step "$tool, operations" in_shards "$processes" "${checker[@]}" --tool "$tool" \
+      "$here/parity-gpu"
   done
 }
 
