@@ -45,8 +45,7 @@ FoundShift describeBest(const std::vector<uint64_t>& sums, const ShiftRange& ran
         visit(dx, dy, sums[static_cast<size_t>((reach - dy) * side + reach - dx)]);
   };
   forShifts([&](int dx, int dy, uint64_t sum) {
-    if (range.allows({dx, dy}))
-      best = std::min(best, {sum, dx * dx + dy * dy, dy, dx});
+    if (range.allows({dx, dy})) best = std::min(best, {sum, dx * dx + dy * dy, dy, dx});
   });
   FoundShift found;
   found.d = {std::get<3>(best), std::get<2>(best)};
