@@ -21,6 +21,9 @@ constexpr int kRefinements = 3;
 // Small pixels by which motions may differ and count as alike.
 constexpr double kAlikeWhole = .75, kAlikeFine = .1;
 constexpr double kEnough = .6;  // Share of the votes that tells that no other motion is looked for.
+// Nor is one if the camera goes on as it did, and that explains so much of what it explained when
+// nothing better was found.
+constexpr double kAsMuch = .9;
 constexpr double kLeastNoise = 1.0;  // Variance of a difference, grey levels squared.
 
 /// Of shift (dx, dy), in 1/256 grey level.
@@ -57,6 +60,7 @@ void CameraSearch::reset() {
   nowOf_.reset();
   last_ = {};
   agreement_ = 0;
+  inVain_ = 1;
 }
 
 void CameraSearch::reduce(const Picture& picture, const Executor& executor, Reduced& to) const {
@@ -225,10 +229,13 @@ CameraMotion CameraSearch::find(const std::shared_ptr<const Picture>& current,
   agreement_ = 0;
   if (grid_.count() == 0) return {};
   CameraFit fit = approach(last_, executor);
-  if (fit.explained < kEnough) {
+  const bool isAsBefore = fit.model == last_ && fit.explained >= kAsMuch * inVain_;
+  if (fit.explained < kEnough && !isAsBefore) {
     measure(motionOf(last_, frame_), executor);
     const CameraFit other = approach(search(executor).model, executor);
-    if (other.explained > fit.explained) fit = other;
+    const bool isBetter = other.explained > fit.explained;
+    if (isBetter) fit = other;
+    inVain_ = isBetter ? 1 : fit.explained;
   }
   const CameraModel& model = fit.model;
   last_ = model;

@@ -7,7 +7,8 @@
 // the first is that of the frame before. Where it explains too few, each block is looked for where
 // the camera was heading, then where the picture as a whole has gone (tried on still smaller
 // pictures), and of the motion from there and that of the frame before, both made as fine as
-// possible, the one counts that explains more.
+// possible, the one counts that explains more. That is not done again while the camera goes on just
+// as it did when it was done in vain.
 //
 // Determinism: integers on pixels; camera_fit tells of the rest.
 #pragma once
@@ -59,6 +60,7 @@ class CameraSearch {
   std::shared_ptr<const Picture> nowOf_;  ///< Whose pictures now_ holds.
   CameraModel last_;
   double agreement_ = 0;
+  double inVain_ = 1;  ///< Share that was explained when the last search found nothing better.
   std::vector<uint32_t> differences_;  ///< Of each shift of the tiny pictures.
   std::vector<Point> shifts_;
   std::vector<BlockMatch> matches_;

@@ -118,6 +118,28 @@ TEST(CameraSearch, AThirdThatMovesOtherwiseIsNotTheCameraHoweverLoud) {
   }
 }
 
+TEST(CameraSearch, FindsWhatBeginsWhileMuchOfThePictureFlickers) {
+  std::mt19937 random(3);
+  CameraSearch search;
+  std::shared_ptr<const Picture> previous;
+  Place at{};
+  int step = 0;
+  for (const Place by : {Place{}, Place{}, Place{}, Place{}, Place{-13, 5.5}, Place{-13, 5.5},
+                         Place{}, Place{}, Place{1.5, 0}, Place{20, -9}}) {
+    SCOPED_TRACE(step++);
+    at = {at.x + by.x, at.y + by.y};
+    const auto now = scenes::paintGrey(kSize, [&](int x, int y) {
+      return x % 96 < 42 ? static_cast<int>(random() % 256)
+                         : static_cast<int>(groundAt(x + at.x, y + at.y));
+    });
+    if (previous) {
+      const CameraMotion camera = search.find(now, previous, Executor(1));
+      EXPECT_LT(worstAtCorners(camera, turned(1, 0, by.x, by.y)), .7);
+    }
+    previous = now;
+  }
+}
+
 TEST(CameraSearch, IsTheSameOnAllTargetsAndThreads) {
   const Way before = turned(1.01, -1, 9, 2);
   const CameraMotion expected = find(before);
