@@ -8,6 +8,7 @@
 #include "tests/fuzz/set_property.hpp"
 
 #include <atomic>
+#include <cinttypes>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -62,7 +63,15 @@ void readProperties(GstElement* element) {
   g_free(specs);
 }
 
-/// Pushes frames through a chain until it has had `pushes` of them.
+/// Drops what has come out, of which it returns the number.
+uint64_t countOut(const Chain& chain) {
+  uint64_t out = 0;
+  while (const testing::BufferPtr buffer{gst_harness_try_pull(chain.harness())}) ++out;
+  return out;
+}
+
+/// Pushes frames through a chain until it has had `pushes` of them, all of which must come out or
+/// be refused with an error.
 void run(const char* line, const Options& options) {
   const Caps caps{"I420", options.width, options.height};
   Chain chain(line, caps);
@@ -87,7 +96,7 @@ void run(const char* line, const Options& options) {
   fuzz::Bytes bytes = random.bytes();
   fuzz::MovingScene scene = fuzz::MovingScene::from(bytes);
   const GstVideoInfo info = caps.info();
-  uint64_t out = 0;
+  uint64_t out = 0, refused = 0, untold = 0;
   for (int i = 0; i < options.pushes; ++i) {
     testing::BufferPtr buffer = fuzz::paintScene(scene, info);
     scene.advance();
@@ -96,16 +105,22 @@ void run(const char* line, const Options& options) {
       scene = fuzz::MovingScene::from(bytes);
     }
     GST_BUFFER_PTS(buffer.get()) = static_cast<GstClockTime>(i) * 40 * GST_MSECOND;
-    if (chain.pass(std::move(buffer))) ++out;
+    if (chain.push(std::move(buffer)) != GST_FLOW_OK) {
+      ++refused;  // Of scope=foreground without bgremove, say.
+      untold += chain.complaint(GST_MESSAGE_ERROR).empty();
+    }
+    out += countOut(chain);
     while (chain.message(GST_MESSAGE_ANY)) {
     }
   }
   isOver = true;
   setter.join();
   getter.join();
-  std::printf("%d pushed, %llu came out: %.40s ...\n", options.pushes,
-              static_cast<unsigned long long>(out), line);
-  if (out == 0) std::exit(1);
+  gst_harness_push_event(chain.harness(), gst_event_new_eos());  // What is held back comes, too.
+  out += countOut(chain);
+  std::printf("%d pushed, %" PRIu64 " came out, %" PRIu64 " refused: %.40s ...\n", options.pushes,
+              out, refused, line);
+  if (out + refused != static_cast<uint64_t>(options.pushes) || untold > 0) std::exit(1);
 }
 
 }  // namespace
