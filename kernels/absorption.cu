@@ -7,7 +7,7 @@ namespace {
 
 using namespace one_block;
 
-__global__ void __launch_bounds__(kThreads)
+__global__ void __launch_bounds__(kThreads, 1)
     absorbRegions(AbsorptionLimits limits, const __grid_constant__ AbsorptionView view) {
   RG_SHARED(uint32_t, sums, kWarps);
   RG_SHARED(uint32_t, digits, kDigits);

@@ -58,7 +58,7 @@ __device__ uint32_t numberLabels(const DivisionView& view, uint32_t left, uint32
   return labels;
 }
 
-__global__ void __launch_bounds__(kThreads)
+__global__ void __launch_bounds__(kThreads, 1)
     absorbAndNumber(AbsorptionLimits limits, const __grid_constant__ DivisionView view) {
   RG_SHARED(uint32_t, sums, kWarps);
   RG_SHARED(uint32_t, digits, kDigits);
