@@ -229,8 +229,9 @@ CameraMotion CameraSearch::find(const std::shared_ptr<const Picture>& current,
   agreement_ = 0;
   if (grid_.count() == 0) return {};
   CameraFit fit = approach(last_, executor);
-  const bool isAsBefore = fit.model == last_ && fit.explained >= kAsMuch * inVain_;
-  if (fit.explained < kEnough && !isAsBefore) {
+  if (fit.explained >= kEnough) {
+    inVain_ = 1;
+  } else if (fit.model != last_ || fit.explained < kAsMuch * inVain_) {
     measure(motionOf(last_, frame_), executor);
     const CameraFit other = approach(search(executor).model, executor);
     const bool isBetter = other.explained > fit.explained;

@@ -60,7 +60,7 @@ class CameraSearch {
   std::shared_ptr<const Picture> nowOf_;  ///< Whose pictures now_ holds.
   CameraModel last_;
   double agreement_ = 0;
-  double inVain_ = 1;  ///< Share that was explained when the last search found nothing better.
+  double inVain_ = 1;  ///< Share explained when a search found nothing better; 1 = none has.
   std::vector<uint32_t> differences_;  ///< Of each shift of the tiny pictures.
   std::vector<Point> shifts_;
   std::vector<BlockMatch> matches_;
