@@ -153,9 +153,6 @@ struct Numbers {
     Number turnY{1, 6};           ///< and of its height.
     Number leastReach{6};         ///< Pixels that are always searched.
     Number mostReach{1, 8};       ///< Of the frame, that are searched at most.
-    Number farFrom{50};           ///< How little it matters where a hidden thing was expected.
-    Number sliver{1, 8};          ///< Of a portrait, by which a part is recognised,
-    Number sliverAgreeing{3, 4};  ///< and of what is seen of it.
     Number standing{3, 4};        ///< Of what usually agrees: it stands there.
     Number standingRegion{1, 2};  ///< Of a region, that it explains.
     Number edge{8};      ///< What a sample's edge gains that ends at the ground; a colour: 8.
@@ -195,12 +192,9 @@ struct Numbers {
     Number part{4, 5};         ///< Of its width: less is a part of it.
     Number leastHeight{1, 2};  ///< Of its height, of what comes back.
     Number mostHeight{2};
-    Number alike{2, 5};      ///< Similarity of looks without which it is somebody else,
-    Number stranger{7, 20};  ///< and where it was expected and stands alone.
-    Number knownLook{8};     ///< Frames after which a look can be told from another.
-    Number leastCells{16};   ///< From which it can be told.
-    Number looks{4};         ///< Frames apart, after which two are judged.
-    Number margin{1, 12};    ///< By so much the exchange has to look better.
+    Number alike{2, 5};    ///< Similarity of looks without which it is somebody else.
+    Number looks{4};       ///< Frames apart, after which two are judged.
+    Number margin{1, 12};  ///< By so much the exchange has to look better.
   } identity;
 
   /// Sizes that are learnt.

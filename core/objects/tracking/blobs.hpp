@@ -38,7 +38,6 @@ class Blobs {
     return has(track) && soleTrack_[blobOf_[track]] == track + 1;
   }
   [[nodiscard]] bool isOwned(uint32_t number) const;
-  void leave(size_t track) { blobOf_[track] = 0; }
   void exchange(size_t a, size_t b) { std::swap(blobOf_[a], blobOf_[b]); }
 
  private:

@@ -60,7 +60,6 @@ void Tracker::update(const GroupGrid& evidence, std::span<const Group> groups, i
   owners_.shareBlobs(evidence, state_);
   owners_.giveGroups(evidence, groups, state_);
   countCells(evidence, state_);
-  dropStrangers(evidence, state_);
   newcomers_.find(evidence, params.minAreaPx, state_);
   sight(evidence, state_);
   encounters_.meet(state_);

@@ -40,6 +40,13 @@ PortraitSearch searchOf(const TrackerState& state, size_t index, int64_t stepNs)
   return {track.portraitCorner(), reach, calm, turn, state.appearance};
 }
 
+/// Where the middle of a portrait's lower edge is that was looked for at `corner`, in 1/16 px.
+Point placeOfMatch(const Track& track, Point corner, const PortraitMatch& match) {
+  const Size size = track.portrait.sizePx;
+  return {corner.x * kUnit + match.shift.x + size.width * kUnit / 2,
+          (corner.y + size.height) * kUnit + match.shift.y};
+}
+
 }  // namespace
 
 /// The tracks that have a portrait and aren't clear give up their cells; those of clear ones are
@@ -157,12 +164,6 @@ void learnPortrait(size_t index, const GroupGrid& e, TrackerState& state) {
   if (track.portrait.frames == 0) track.portrait.sizePx = size;
   learn(track.portrait, {e, *e.picture, {}}, track.portraitCorner(), size, state.owner,
         static_cast<uint16_t>(index + 1));
-}
-
-Point placeOfMatch(const Track& track, Point corner, const PortraitMatch& match) {
-  const Size size = track.portrait.sizePx;
-  return {corner.x * kUnit + match.shift.x + size.width * kUnit / 2,
-          (corner.y + size.height) * kUnit + match.shift.y};
 }
 
 }  // namespace rg::objects

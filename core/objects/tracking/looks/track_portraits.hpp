@@ -39,7 +39,4 @@ class TrackPortraits {
 /// Of a track that was seen whole.
 void learnPortrait(size_t index, const GroupGrid& evidence, TrackerState& state);
 
-/// Where the middle of a portrait's lower edge is that was looked for at `corner`, in 1/16 px.
-[[nodiscard]] Point placeOfMatch(const Track& track, Point corner, const PortraitMatch& match);
-
 }  // namespace rg::objects

@@ -3,7 +3,6 @@
 
 #include "core/base/pixel.hpp"
 #include "core/base/time/frame_count.hpp"
-#include "core/objects/tracking/looks/track_portraits.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -87,15 +86,14 @@ void Returns::settle(const GroupGrid& e, const Encounters& encounters, Newcomers
   for (size_t m = 0; m < missing_.size(); ++m)
     for (size_t n = 0; n < list.size(); ++n)
       if (list[n].cells > 0)
-        costs_[m * list.size() + n] =
-            costOf(e, state.tracks[missing_[m]], list[n], encounters, state);
+        costs_[m * list.size() + n] = costOf(state.tracks[missing_[m]], list[n], encounters, state);
   assignment_.solve(costs_, static_cast<int>(missing_.size()), static_cast<int>(list.size()),
                     state.numbers.identity.leaveOut.whole());
   trackOf.assign(list.size(), -1);
   for (size_t m = 0; m < missing_.size(); ++m) {
     const int n = assignment_.columnOf(static_cast<int>(m));
     if (n < 0) continue;
-    comeBack(e, list[static_cast<size_t>(n)], state, state.tracks[missing_[m]]);
+    comeBack(list[static_cast<size_t>(n)], state, state.tracks[missing_[m]]);
     trackOf[static_cast<size_t>(n)] = static_cast<int>(missing_[m]);
   }
   for (size_t n = 0; n < list.size(); ++n) {
@@ -107,8 +105,8 @@ void Returns::settle(const GroupGrid& e, const Encounters& encounters, Newcomers
 }
 
 /// 0 … 2000, or kForbidden: how unlikely it is that the newcomer is the track that is missing.
-int64_t Returns::costOf(const GroupGrid& e, const Track& track, const Newcomer& newcomer,
-                        const Encounters& encounters, const TrackerState& state) {
+int64_t Returns::costOf(const Track& track, const Newcomer& newcomer, const Encounters& encounters,
+                        const TrackerState& state) {
   const int64_t x = (2 * int64_t{newcomer.box.x} + newcomer.box.width) * kUnit / 2;
   const int64_t foot = int64_t{newcomer.box.bottom()} * kUnit;
   const int64_t dx = x - track.x, dy = foot - track.foot;
@@ -117,8 +115,9 @@ int64_t Returns::costOf(const GroupGrid& e, const Track& track, const Newcomer& 
   const int64_t growth = n.gateGrowth.of(track.size.height * (track.unseenNs / 1'000'000)) / 1000;
   const int64_t gate = std::max<int64_t>(1, n.gate.of(track.size.height) + growth);
   if (far > gate) return kForbidden;
+  // A part of what has a portrait would have been found by that.
   if (state.isFaithful(track) && int64_t{newcomer.box.width} * kUnit < n.part * track.size.width)
-    return recognise(e, track, newcomer, state) ? 1000 * int64_t{far} / gate : kForbidden;
+    return kForbidden;
   const int64_t height = int64_t{newcomer.box.height} * kUnit;
   if (!newcomer.isAtBorder &&
       (height < n.leastHeight * track.size.height || height > n.mostHeight * track.size.height))
@@ -128,39 +127,13 @@ int64_t Returns::costOf(const GroupGrid& e, const Track& track, const Newcomer& 
   return 1000 * int64_t{far} / gate + 1000 - 1000 * alike / kFullMatch;
 }
 
-/// Where a track's lower edge has its middle, in 1/16 px, if a newcomer is its left or right part.
-std::optional<Point> Returns::recognise(const GroupGrid& e, const Track& track,
-                                        const Newcomer& newcomer, const TrackerState& state) {
-  if (!state.isFaithful(track) || !e.picture) return {};
-  const Size size = track.portrait.sizePx;
-  const PortraitScene scene{e, *e.picture, {}};
-  const Numbers::Likeness& n = state.numbers.likeness;
-  std::optional<Point> best;
-  uint32_t most = 0;
-  for (const int x : {newcomer.box.x, newcomer.box.right() - size.width}) {
-    const Point corner{x, newcomer.box.bottom() - size.height};
-    const PortraitMatch match =
-        findPortrait(track.portrait, scene,
-                     {corner, {4, 4}, static_cast<int>(n.farFrom.whole()), {}}, scratch_, n);
-    if (match.agreeing < n.sliver * match.samples || match.agreeing < n.sliverAgreeing * match.seen)
-      continue;
-    if (match.agreeing <= most) continue;
-    most = match.agreeing;
-    best = placeOfMatch(track, corner, match);
-  }
-  return best;
-}
-
-void Returns::comeBack(const GroupGrid& e, const Newcomer& newcomer, const TrackerState& state,
-                       Track& track) {
+void Returns::comeBack(const Newcomer& newcomer, const TrackerState& state, Track& track) {
   // What comes out from behind something shows a part first.
   const bool isPart = track.centreSamples > 0 &&
                       newcomer.box.width * kUnit < state.numbers.identity.part * track.size.width;
   Place place{(2 * int64_t{newcomer.box.x} + newcomer.box.width) * kUnit / 2,
               int64_t{newcomer.box.bottom()} * kUnit};
   if (isPart) place = placeOfPart(track, newcomer.box, state.frame);
-  if (const auto recognised = recognise(e, track, newcomer, state); isPart && recognised)
-    place = {recognised->x, recognised->y};
   const int64_t x = place.x, foot = place.foot;
   const int64_t sinceUs = std::max<int64_t>(track.unseenNs / 1000, 1000);
   if (track.hits <= 2) {

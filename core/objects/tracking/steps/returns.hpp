@@ -9,7 +9,6 @@
 #include "core/objects/tracking/steps/newcomers.hpp"
 
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 namespace rg::objects {
@@ -21,18 +20,13 @@ class Returns {
               TrackerState& state);
 
  private:
-  [[nodiscard]] int64_t costOf(const GroupGrid& evidence, const Track& track,
-                               const Newcomer& newcomer, const Encounters& encounters,
-                               const TrackerState& state);
-  [[nodiscard]] std::optional<Point> recognise(const GroupGrid& evidence, const Track& track,
-                                               const Newcomer& newcomer, const TrackerState& state);
-  void comeBack(const GroupGrid& evidence, const Newcomer& newcomer, const TrackerState& state,
-                Track& track);
+  [[nodiscard]] int64_t costOf(const Track& track, const Newcomer& newcomer,
+                               const Encounters& encounters, const TrackerState& state);
+  void comeBack(const Newcomer& newcomer, const TrackerState& state, Track& track);
 
   std::vector<size_t> missing_;  ///< Tracks.
   std::vector<int64_t> costs_;
   Assignment assignment_;
-  PortraitScratch scratch_;
 };
 
 }  // namespace rg::objects

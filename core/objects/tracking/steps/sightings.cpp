@@ -70,30 +70,6 @@ void countCells(const GroupGrid& e, TrackerState& state) {
   }
 }
 
-void dropStrangers(const GroupGrid& e, TrackerState& state) {
-  const Numbers::Identity& n = state.numbers.identity;
-  bool hasStrangers = false;
-  for (size_t i = 0; i < state.tracks.size(); ++i) {
-    Sighting& s = state.sightings[i];
-    const Track& track = state.tracks[i];
-    const bool isAlone = state.blobs.isAlone(i);
-    if (!isAlone || s.isMatched || track.look.frames < n.knownLook.whole() ||
-        s.cells < n.leastCells.whole())
-      continue;
-    Look now;
-    learn(now, s.look);
-    if (state.weighed(similarity(track.look, now)) >= n.stranger * kFullMatch) continue;
-    s = {};
-    state.blobs.leave(i);
-    hasStrangers = true;
-  }
-  if (!hasStrangers) return;
-  e.forForeground([&](size_t cell, int, int) {
-    if (state.owner[cell] != 0 && state.sightings[state.owner[cell] - 1u].task < 0)
-      state.owner[cell] = 0;
-  });
-}
-
 void sight(const GroupGrid& e, TrackerState& state) {
   const Numbers::Place& n = state.numbers.place;
   for (size_t i = 0; i < state.tracks.size(); ++i) {

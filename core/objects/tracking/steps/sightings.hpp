@@ -9,10 +9,6 @@ namespace rg::objects {
 /// What each track owns of its fitted box.
 void countCells(const GroupGrid& evidence, TrackerState& state);
 
-/// Who stands where somebody was expected but looks like nothing that was seen of them is somebody
-/// else: one who comes in where the other left.
-void dropStrangers(const GroupGrid& evidence, TrackerState& state);
-
 /// Whether all of each track is seen, and whether it has a blob for itself and stands.
 void sight(const GroupGrid& evidence, TrackerState& state);
 
