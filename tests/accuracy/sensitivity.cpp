@@ -8,6 +8,7 @@
 #include "tests/accuracy/earlier_stages.hpp"
 #include "tests/accuracy/painter.hpp"
 #include "tests/accuracy/sampling.hpp"
+#include "tests/accuracy/terms.hpp"
 #include "tests/accuracy/verdict.hpp"
 
 #include <algorithm>
@@ -17,7 +18,11 @@
 #include <cstdio>
 #include <fstream>
 #include <iostream>
+#include <memory>
+#include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace rg::truth {
 namespace {
@@ -34,6 +39,9 @@ constexpr char kUsage[] =
     "  --copy      a slightly changed one; \"copies\" lists \"NAME EVERY\", one frame in so many\n"
     "  --numbers   those to be moved, from 0, TO left out (default: all). Trial \"- 0\" moves "
     "none\n"
+    "  --terms     instead of numbers each weight of the energy and of looks, and \"all\" of them, "
+    "in\n"
+    "              percent of what it is (0: left out); NUMBER is the term, WAY 0\n"
     "  --by        each once down and once up, WAY -1 and 1 (default: 25); what counts something\n"
     "              is moved by one at least\n";
 
@@ -49,6 +57,7 @@ objects::Number moved(objects::Number n, int percent) {
 struct Options {
   size_t from = 0, to = Array{}.size();
   int percent = 25;
+  std::optional<int> termPercent;
   Sampling sampling;
   Copy copy;
 };
@@ -62,9 +71,28 @@ struct Trial {
   std::string lines;
 };
 
+void addTerms(int percent, std::vector<Trial>& trials) {
+  Trial all;
+  all.number = "all";
+  const auto weigh = [&](const Term& term, Trial& trial) {
+    trial.params.*term.weight *= percent / 100.0;
+  };
+  for (const Term& term : kTerms) {
+    Trial& trial = trials.emplace_back();
+    trial.number = term.name;
+    weigh(term, trial);
+    weigh(term, all);
+  }
+  trials.push_back(std::move(all));
+}
+
 std::vector<Trial> makeTrials(const Options& options) {
   std::vector<Trial> trials(1);
   trials[0].number = "-";
+  if (options.termPercent) {
+    addTerms(*options.termPercent, trials);
+    return trials;
+  }
   const Array numbers = std::bit_cast<Array>(objects::Numbers{});
   for (size_t i = options.from; i < options.to; ++i)
     for (const int way : {-1, 1}) {
@@ -172,6 +200,9 @@ bool parse(int argc, char** argv, bool isScenes, Options& options) {
     bool isRead = false;
     if (name == "--numbers")
       isRead = std::sscanf(value, "%zu:%zu", &options.from, &options.to) == 2;
+    else if (name == "--terms")
+      isRead = std::sscanf(value, "%d", &options.termPercent.emplace()) == 1 &&
+               *options.termPercent >= 0 && *options.termPercent <= 1000;
     else if (name == "--by")
       isRead = std::sscanf(value, "%d", &options.percent) == 1;
     else if (name == "--size" && isScenes)

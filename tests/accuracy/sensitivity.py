@@ -5,6 +5,7 @@
 usage: sensitivity.py DATA SCORE.PY [--build FOLDER] [--still FIRST:LAST] [--pan FIRST:LAST]
                       [--sampling WxH@FPS]... [--copies NAME,... | --copies all]
                       [--numbers NAME] [--by PERCENT] [--jobs N] [--gate] [--all]
+       sensitivity.py --terms PERCENT DATA SCORE.PY [...]
 
 Each number of core/objects/numbers.hpp is moved down and up (--by, default 25 percent), and
 tracking is scored on pets09_s2l1 and tud_campus of DATA by the referee SCORE.PY, and on made-up
@@ -16,6 +17,8 @@ number).
             figures are their mean. Of several, and of scenes, prints how far they differ (standard
             deviation; of a change: of what it does to each)
 --numbers   only this one, as group.name, or a group
+--terms     instead of numbers: what the sets come to with each weight of the energy, that of looks,
+            and all of them at so many percent of what they are; 0 leaves them out
 --gate      exits 1 when the mean falls by more than .02 or the latter by more than .05
 """
 import argparse
@@ -67,6 +70,8 @@ class Runner:
 
     def start(self, *args):
         chosen = self.options.chosen
+        if self.options.terms is not None:
+            return self.call(*args, '--terms', str(self.options.terms))
         return self.call(*args, '--by', str(self.options.by),
                          '--numbers', f'{chosen.start}:{chosen.stop}')
 
@@ -108,7 +113,7 @@ class Runner:
 
 
 def trial_of(number, way):
-    return None if number == '-' else int(number), int(way)
+    return None if number == '-' else int(number) if number.isdigit() else number, int(way)
 
 
 def thinned(truth, every):
@@ -142,6 +147,7 @@ def parse():
     parser.add_argument('--copies', default='same')
     parser.add_argument('--numbers', default='')
     parser.add_argument('--by', type=int, default=25)
+    parser.add_argument('--terms', type=int)
     parser.add_argument('--jobs', type=int, default=2)
     parser.add_argument('--gate', action='store_true')
     parser.add_argument('--all', action='store_true')
@@ -151,6 +157,16 @@ def parse():
 def told(pairs):
     return ' '.join(f'{mean:+.3f}' + (f' +-{off:.3f}' if len(pairs) > 1 else '')
                     for mean, off in zip(means(pairs), spread(pairs)))
+
+
+def print_terms(results):
+    """Of each trial what each set comes to, and the mean of their IDF1."""
+    print(f'| weight | mean IDF1 | {" | ".join(f"{name}: MOTA / IDF1" for name in results)} |')
+    print('|---|---|' + '---|' * len(results))
+    for trial in next(iter(results.values())):
+        figures = [means(by[trial]) for by in results.values()]
+        each = ' | '.join(f'{mota:.3f} / {idf1:.3f}' for mota, idf1 in figures)
+        print(f'| {trial[0] or "-"} | {statistics.mean(f[1] for f in figures):.3f} | {each} |')
 
 
 def choose(known, wanted):
@@ -183,6 +199,9 @@ def main():
         (mota, idf1), (mota_off, idf1_off) = means(by[nothing]), spread(by[nothing])
         print(f'{name}, {len(by[nothing])}: MOTA {mota:.4f} +-{mota_off:.4f} '
               f'IDF1 {idf1:.4f} +-{idf1_off:.4f}')
+    if options.terms is not None:
+        print_terms(results)
+        return
     rows, stay = [], []
     for i in options.chosen:
         changes = {way: {name: differences(by[i, way], by[nothing]) for name, by in results.items()}

@@ -3,6 +3,8 @@
 // time, and with none. Under a panning camera without bgremove, where the merging alone parts
 // things from the ground, also by arcs: one between two regions is told right when it is kept
 // within a thing, or the ground, and broken between two.
+#include "tests/accuracy/terms.hpp"
+
 #include "core/objects/objects.hpp"
 #include "tests/accuracy/earlier_stages.hpp"
 #include "tests/accuracy/painter.hpp"
@@ -74,8 +76,7 @@ struct Means {
 
 /// Stage 5 with some terms left out.
 struct Trial {
-  const char* name;
-  std::vector<double objects::Params::*> leftOut;
+  std::string name;
   objects::Params params;
   std::unique_ptr<objects::Stage> stage;
   Verdict verdict;
@@ -107,25 +108,15 @@ struct Trial {
 using Trials = std::vector<Trial>;
 
 Trials makeTrials(const Context& context) {
-  using objects::Params;
-  const std::pair<const char*, double Params::*> terms[] = {
-      {"without U1", &Params::motionWeight},
-      {"without U2", &Params::borderWeight},
-      {"without U3", &Params::arcWeight},
-      {"no prediction", &Params::predictionWeight},
-      {"no appearance", &Params::appearanceWeight}};
-  Trials trials(std::size(terms) + 2);
+  Trials trials(std::size(kTerms) + 2);
   trials.front().name = "all terms";
   trials.back().name = "no terms";
-  for (size_t i = 0; i < std::size(terms); ++i) {
-    trials[i + 1].name = terms[i].first;
-    trials[i + 1].leftOut.push_back(terms[i].second);
-    trials.back().leftOut.push_back(terms[i].second);
+  for (size_t i = 0; i < std::size(kTerms); ++i) {
+    trials[i + 1].name = std::string("no ") + kTerms[i].name;
+    trials[i + 1].params.*kTerms[i].weight = 0;
+    trials.back().params.*kTerms[i].weight = 0;
   }
-  for (Trial& trial : trials) {
-    for (const auto term : trial.leftOut) trial.params.*term = 0;
-    trial.stage = objects::makeStage(context);
-  }
+  for (Trial& trial : trials) trial.stage = objects::makeStage(context);
   return trials;
 }
 
@@ -147,7 +138,7 @@ void play(uint32_t seed, bool isPan, const Context& context, Trials& trials) {
 
 void print(const char* set, bool isPan, const Trials& trials) {
   std::printf("%-16s", set);
-  for (const Trial& trial : trials) std::printf(" %13s", trial.name);
+  for (const Trial& trial : trials) std::printf(" %13s", trial.name.c_str());
   const auto row = [&](const char* name, const auto& valueOfMeans) {
     std::printf("\n%-16s", name);
     for (const Trial& trial : trials) std::printf(" %13.4f", valueOfMeans(trial.means));

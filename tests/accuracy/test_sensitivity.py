@@ -113,11 +113,26 @@ class Sensitivity(unittest.TestCase):
         self.assertEqual(rows[str(first), '1'], usual)
         self.assertNotEqual(rows[str(last), '1'], usual)
 
+    def test_terms_are_left_out_or_weighed(self):
+        rows = {}
+        for percent in '100', '0':
+            done = run('pan', '1:1', '--terms', percent)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            rows[percent] = {line.split()[0]: line.split()[1:] for line in done.stdout.splitlines()}
+            self.assertEqual(list(rows[percent]),
+                             ['-', 'U1', 'U2', 'U3', 'prediction', 'appearance', 'all'])
+        usual = rows['0']['-']
+        self.assertGreater(float(usual[2]), 0.8)
+        self.assertEqual(set(map(tuple, rows['100'].values())), {tuple(usual)})
+        for term in 'U1', 'all':
+            self.assertLess(float(rows['0'][term][2]), 0.5)
+
     def test_wrong_arguments_are_told(self):
         for args in ([], ['copies', 'of'], ['still', '1:1', '--copy', 'same'],
                      ['pan', '1:1', '--size', '9x9'], ['a.avi', '25', '1', '.', '--copy', 'none'],
                      ['a.avi', '25', '1', '.', '--fps', '5'], ['still'], ['still', '2:1'],
                      ['pan', '1:1', '--numbers', '3:3'], ['pan', '1:1', '--by', '100'],
+                     ['pan', '1:1', '--terms', '-1'],
                      ['a.avi', '0', '1', '.'], ['a.avi', '25']):
             with self.subTest(args=args):
                 self.assertEqual(run(*args).returncode, 2)
