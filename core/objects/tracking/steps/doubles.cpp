@@ -9,8 +9,8 @@ namespace {
 
 constexpr int kUnit = kPositionUnit;
 
-/// Whether two tracks seem to be one body: they lie above each other as its halves do, or together
-/// show no more than one of them should.
+/// Whether two tracks seem to be one body: one of them was hardly ever seen apart, and they lie
+/// above each other as its halves do, or together show no more than one of them should.
 bool areOneBody(const TrackerState& state, const GroupGrid& e, size_t a, size_t b) {
   const Numbers::Life& n = state.numbers.life;
   const Track &p = state.tracks[a], &q = state.tracks[b];
@@ -19,11 +19,10 @@ bool areOneBody(const TrackerState& state, const GroupGrid& e, size_t a, size_t 
   if (state.blobs.has(a) && state.blobs.has(b) &&
       areApart(e, state.blobs.of(a).group, state.blobs.of(b).group))
     return false;
+  if (std::min(p.apartNs, q.apartNs) >= n.doubled.whole()) return false;
   if (!state.scale.isUniform() && (state.isComplete(a, e) || state.isComplete(b, e))) return false;
   if (state.outgrows(p, both) || state.outgrows(q, both)) return false;
-  if (!state.scale.isUniform() && state.blobs.has(a) && state.blobs.areTogether(a, b) &&
-      std::min(p.apartNs, q.apartNs) < n.doubled.whole())
-    return true;
+  if (!state.scale.isUniform() && state.blobs.has(a) && state.blobs.areTogether(a, b)) return true;
   if (columns < n.oneBodyColumns * std::min(first.width, second.width)) return false;
   if (!state.scale.isUniform()) {
     const int rows = std::min(first.bottom(), second.bottom()) - std::max(first.y, second.y);
