@@ -61,5 +61,17 @@ TEST_F(Doubles, WhoStandBesideEachOtherStayTwo) {
   EXPECT_FALSE(state_.tracks[0].isOver || state_.tracks[1].isOver);
 }
 
+TEST_F(Doubles, WhoWereBothSeenApartStayTwoHoweverLongTheyLookLikeOneBody) {
+  add(state_, {95, 100, 40, 100}, 200);
+  add(state_, {100, 200, 20, 16}, 10);
+  for (objects::Track& track : state_.tracks) track.apartNs = 500'000'000;
+  for (int frame = 0; frame < 50; ++frame) join();
+  EXPECT_FALSE(state_.tracks[0].isOver || state_.tracks[1].isOver);
+  state_.tracks[1].apartNs = 400'000'000;
+  for (int frame = 0; frame < 50; ++frame) join();
+  EXPECT_FALSE(state_.tracks[0].isOver);
+  EXPECT_TRUE(state_.tracks[1].isOver);
+}
+
 }  // namespace
 }  // namespace rg
