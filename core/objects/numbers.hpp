@@ -128,13 +128,11 @@ struct Numbers {
     Number seenAgain{1, 2};     ///< Of what it usually fills: it is seen,
     Number seenStill{77, 256};  ///< and so much if it was seen in the previous frame.
     Number sharpShare{1, 2};    ///< Of a portrait, that makes a match sharp,
-    Number weakShare{1, 5};     ///< that tells of its speed.
-    Number steadyShare{1, 4};   ///< that counts for the steady speed.
+    Number steadyShare{1, 4};   ///< and that counts for the steady speed.
     Number firstGain{16}, firstSpeed{14};  ///< 1/16 of what is off, of the first two sightings,
     Number earlyGain{14}, earlySpeed{8};   ///< the next two,
     Number wholeGain{11}, wholeSpeed{4};   ///< one that is seen whole,
     Number matchGain{8}, matchSpeed{1};    ///< matched in part,
-    Number weakGain{4}, weakSpeed{0};      ///< by less,
     Number soleGain{8}, soleSpeed{1};      ///< in a blob of its own,
     Number otherGain{8}, otherSpeed{2};    ///< and otherwise.
     Number slowing{1, 2};  ///< A speed off its steady one by less is noise of the last moment.
@@ -186,15 +184,13 @@ struct Numbers {
 
   /// Newcomers that are a track which is missing, and who is who.
   struct Identity {
-    Number leaveOut{1300};     ///< Cost of leaving one missing; distance and look cost up to 1000.
-    Number gate{1, 2};         ///< Heights within which it comes back at once,
-    Number gateGrowth{3, 2};   ///< and more of them for each second.
-    Number part{4, 5};         ///< Of its width: less is a part of it.
-    Number leastHeight{1, 2};  ///< Of its height, of what comes back.
-    Number mostHeight{2};
-    Number alike{2, 5};    ///< Similarity of looks without which it is somebody else.
-    Number looks{4};       ///< Frames apart, after which two are judged.
-    Number margin{1, 12};  ///< By so much the exchange has to look better.
+    Number leaveOut{1300};    ///< Cost of leaving one missing; distance and look cost up to 1000.
+    Number gate{1, 2};        ///< Heights within which it comes back at once,
+    Number gateGrowth{3, 2};  ///< and more of them for each second.
+    Number part{4, 5};        ///< Of its width: less is a part of it.
+    Number alike{2, 5};       ///< Similarity of looks without which it is somebody else.
+    Number looks{4};          ///< Frames apart, after which two are judged.
+    Number margin{1, 12};     ///< By so much the exchange has to look better.
   } identity;
 
   /// Sizes that are learnt.
@@ -208,17 +204,14 @@ struct Numbers {
     Number outgrown{5, 4};      ///< Of a size: more is more than the track.
     Number closing{1, 32};  ///< Of a box, by which an end comes nearer that goes behind something,
     Number closingPx{3};    ///< at least so many pixels.
-    Number learnEvery{1, 2};          ///< Heights of way after which the scene learns again,
-    Number learnFirst{1, 6};          ///< as long as it knows nothing.
-    Number leastSamples{10};          ///< Of sizes, before the scene's are known.
-    Number leastThings{8};            ///< Before they are said to be alike,
-    Number alikeHeight{1, 4};         ///< off by no more,
-    Number alikeWidth{9, 5};          ///< nor by this factor,
-    Number mostAlike{3, 4};           ///< so many of them.
-    Number uniformHeightLeast{4, 5};  ///< Of a usual size, within which tracks are kept there.
-    Number uniformHeightMost{13, 10};
-    Number uniformWidthLeast{13, 20};
-    Number uniformWidthMost{29, 20};
+    Number learnEvery{1, 2};   ///< Heights of way after which the scene learns again,
+    Number learnFirst{1, 6};   ///< as long as it knows nothing.
+    Number leastSamples{10};   ///< Of sizes, before the scene's are known.
+    Number leastThings{8};     ///< Before they are said to be alike,
+    Number alikeHeight{1, 4};  ///< off by no more,
+    Number alikeWidth{9, 5};   ///< nor by this factor,
+    Number mostAlike{3, 4};    ///< so many of them.
+    Number usual{1, 2};        ///< Of what a size is learnt from, the scene's says then.
   } sizes;
 
   /// Beginning, being hidden, stopping, ending.

@@ -103,7 +103,7 @@ class Sensitivity(unittest.TestCase):
     def test_a_number_that_matters_changes_what_is_tracked_and_others_do_not(self):
         # One that nobody reads behind a moving camera, and the heights that a thing has to go.
         last = NAMES.index('life.leave')
-        first = NAMES.index('sizes.uniformWidthMost')
+        first = NAMES.index('sizes.usual')
         done = run('pan', '1:1', '--numbers', f'{first}:{last + 1}', '--by', '90')
         self.assertEqual(done.returncode, 0, done.stderr)
         rows = {tuple(line.split()[:2]): line.split()[2:] for line in done.stdout.splitlines()}

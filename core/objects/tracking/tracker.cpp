@@ -43,7 +43,6 @@ void Tracker::begin(const GroupGrid& e, int64_t stepNs) {
   for (Track& track : state_.tracks) {
     moveWithCamera(track, e.camera);
     advance(stepNs, state_, track);
-    fitSizeToScene(state_, track);
   }
 }
 

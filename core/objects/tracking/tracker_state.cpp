@@ -45,10 +45,6 @@ bool TrackerState::isClear(size_t index, const GroupGrid& e) const {
                  track);
 }
 
-bool TrackerState::isComplete(size_t index, const GroupGrid& e) const {
-  return isFaithful(tracks[index]) && isClear(index, e);
-}
-
 bool TrackerState::outgrows(const Track& track, const Box& box) const {
   const auto isBeyond = [&](int px, int64_t size) {
     return int64_t{px} * kUnit > numbers.sizes.outgrown * size;

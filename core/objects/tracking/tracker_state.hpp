@@ -57,8 +57,6 @@ struct TrackerState {
   [[nodiscard]] bool isAbout(const Box& box, const Track& track) const;
   /// Whether the blob that a track has for itself is as large as it should be.
   [[nodiscard]] bool isClear(size_t index, const GroupGrid& evidence) const;
-  /// Whether nothing is missing of a track: its blob is all that it usually is.
-  [[nodiscard]] bool isComplete(size_t index, const GroupGrid& evidence) const;
   /// Whether a box is larger than a track of which the size is known from its own history.
   [[nodiscard]] bool outgrows(const Track& track, const Box& box) const;
   /// Whether other tracks stand in front of most of this one.

@@ -20,7 +20,6 @@ bool areOneBody(const TrackerState& state, const GroupGrid& e, size_t a, size_t 
       areApart(e, state.blobs.of(a).group, state.blobs.of(b).group))
     return false;
   if (std::min(p.apartNs, q.apartNs) >= n.doubled.whole()) return false;
-  if (!state.scale.isUniform() && (state.isComplete(a, e) || state.isComplete(b, e))) return false;
   if (state.outgrows(p, both) || state.outgrows(q, both)) return false;
   if (!state.scale.isUniform() && state.blobs.has(a) && state.blobs.areTogether(a, b)) return true;
   if (columns < n.oneBodyColumns * std::min(first.width, second.width)) return false;

@@ -100,7 +100,7 @@ void learnLook(size_t index, TrackerState& state) {
   const Sighting& s = state.sightings[index];
   if (!track.isInDoubt) {
     track.recent = {};
-    if (s.isWhole || track.look.frames < 4) learn(track.look, s.look);
+    if (s.isWhole) learn(track.look, s.look);
   } else if (!s.isSole) {
     track.recent = {};
   } else if (s.isWhole) {

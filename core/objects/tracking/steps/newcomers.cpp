@@ -102,7 +102,7 @@ void Newcomers::giveFragments(const GroupGrid& e, TrackerState& state) {
       if (newcomer.cells > state.numbers.newcomers.fragment * blob.cells ||
           !belongTogether(box, newcomer.box, state.scale, state.numbers.newcomers))
         continue;
-      if (areApart(e, blob.group, newcomer.group) || state.isComplete(t, e)) continue;
+      if (areApart(e, blob.group, newcomer.group)) continue;
       if (!e.showsMovers && state.outgrows(state.tracks[t], unite(box, newcomer.box))) continue;
       state.sightings[t].box = unite(state.sightings[t].box, newcomer.box);
       trackOf_[n] = static_cast<int>(t);

@@ -115,13 +115,6 @@ int64_t Returns::costOf(const Track& track, const Newcomer& newcomer, const Enco
   const int64_t growth = n.gateGrowth.of(track.size.height * (track.unseenNs / 1'000'000)) / 1000;
   const int64_t gate = std::max<int64_t>(1, n.gate.of(track.size.height) + growth);
   if (far > gate) return kForbidden;
-  // A part of what has a portrait would have been found by that.
-  if (state.isFaithful(track) && int64_t{newcomer.box.width} * kUnit < n.part * track.size.width)
-    return kForbidden;
-  const int64_t height = int64_t{newcomer.box.height} * kUnit;
-  if (!newcomer.isAtBorder &&
-      (height < n.leastHeight * track.size.height || height > n.mostHeight * track.size.height))
-    return kForbidden;
   const int64_t alike = state.weighed(likeness(track, newcomer, encounters, state));
   if (track.isConfirmed && alike < n.alike * kFullMatch) return kForbidden;
   return 1000 * int64_t{far} / gate + 1000 - 1000 * alike / kFullMatch;
@@ -135,11 +128,6 @@ void Returns::comeBack(const Newcomer& newcomer, const TrackerState& state, Trac
               int64_t{newcomer.box.bottom()} * kUnit};
   if (isPart) place = placeOfPart(track, newcomer.box, state.frame);
   const int64_t x = place.x, foot = place.foot;
-  const int64_t sinceUs = std::max<int64_t>(track.unseenNs / 1000, 1000);
-  if (track.hits <= 2) {
-    track.speedX += static_cast<int32_t>((x - track.x) * 1'000'000 / sinceUs);
-    track.speedY += static_cast<int32_t>((foot - track.foot) * 1'000'000 / sinceUs);
-  }
   track.x = static_cast<int32_t>(x);
   track.foot = static_cast<int32_t>(foot);
   track.isSeen = true;

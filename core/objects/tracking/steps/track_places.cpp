@@ -25,8 +25,7 @@ Gains gainsOf(const Track& track, const Sighting& s, const Numbers::Place& n) {
   if (track.hits <= 4) return {n.earlyGain, n.earlySpeed};
   if (s.isWhole || (s.isMatched && s.share >= n.sharpShare * kWhole))
     return {n.wholeGain, n.wholeSpeed};
-  if (s.isMatched && s.share >= n.weakShare * kWhole) return {n.matchGain, n.matchSpeed};
-  if (s.isMatched) return {n.weakGain, n.weakSpeed};
+  if (s.isMatched) return {n.matchGain, n.matchSpeed};
   return s.isSole ? Gains{n.soleGain, n.soleSpeed} : Gains{n.otherGain, n.otherSpeed};
 }
 
@@ -34,14 +33,6 @@ Gains gainsOf(const Track& track, const Sighting& s, const Numbers::Place& n) {
 uint32_t supportOf(const Track& track, const Sighting& s) {
   const uint64_t usual = uint64_t{s.boxCells} * track.fill;
   return usual == 0 ? 0 : static_cast<uint32_t>(uint64_t{s.cells} * 256 * 256 / usual);
-}
-
-/// Whether another track is missing where this one is: they may share what is seen.
-bool hidesAnother(const Track& track, const TrackerState& state) {
-  return std::any_of(state.tracks.begin(), state.tracks.end(), [&](const Track& other) {
-    return other.id != track.id && other.isConfirmed && other.unseenNs > 0 &&
-           !intersect(other.box(), track.box()).isEmpty();
-  });
 }
 
 /// Where a track is that is seen whole: by the mean of its pixels, which tells fractions of a pixel
@@ -81,8 +72,7 @@ Place placeOf(size_t index, TrackerState& state) {
   const Sighting& s = state.sightings[index];
   if (s.isWhole) return placeOfWhole(track, s, state);
   if (s.isMatched) return {s.matched.x, s.matched.y};
-  if (!s.box.isEmpty() && s.isSole && !hidesAnother(track, state))
-    return placeOfPart(track, s.box, state.frame);
+  if (!s.box.isEmpty() && s.isSole) return placeOfPart(track, s.box, state.frame);
   const FitTask& task = state.tasks[static_cast<size_t>(s.task)];
   return {track.x + int64_t{task.fitted.x - task.expected.x} * state.stepPx * kUnit,
           track.foot + int64_t{task.fitted.y - task.expected.y} * state.stepPx * kUnit};

@@ -31,8 +31,14 @@ void mixSize(const Sighting& s, const TrackerState& state, Track& track) {
       share(s.box.width, track.size.width) + share(s.box.height, track.size.height);
   track.sway =
       static_cast<uint16_t>(mix(track.sway, std::min<int64_t>(change, 256), n.swaySamples.whole()));
-  track.size.width = mix(track.size.width, int64_t{s.box.width} * kUnit, weight);
-  track.size.height = mix(track.size.height, int64_t{s.box.height} * kUnit, weight);
+  Extent seen{s.box.width * kUnit, s.box.height * kUnit};
+  if (state.scale.isUniform()) {
+    const Extent usual = state.scale.at(track.foot / kUnit);
+    seen.width += toInt(n.usual.of(int64_t{usual.width} - seen.width));
+    seen.height += toInt(n.usual.of(int64_t{usual.height} - seen.height));
+  }
+  track.size.width = mix(track.size.width, seen.width, weight);
+  track.size.height = mix(track.size.height, seen.height, weight);
   countUp(track.sizeSamples);
   if (s.boxCells > 0) {
     const int64_t fill = std::clamp<int64_t>(int64_t{s.cells} * 256 / s.boxCells, 64, 256);
@@ -41,17 +47,6 @@ void mixSize(const Sighting& s, const TrackerState& state, Track& track) {
 }
 
 }  // namespace
-
-void fitSizeToScene(const TrackerState& state, Track& track) {
-  if (!state.scale.isUniform() || state.isFaithful(track)) return;
-  const Extent usual = state.scale.at(track.foot / kUnit);
-  const auto limit = [](int32_t& value, int64_t expected, Number least, Number most) {
-    value = static_cast<int32_t>(std::clamp<int64_t>(value, least.of(expected), most.of(expected)));
-  };
-  const Numbers::Sizes& n = state.numbers.sizes;
-  limit(track.size.height, usual.height, n.uniformHeightLeast, n.uniformHeightMost);
-  limit(track.size.width, usual.width, n.uniformWidthLeast, n.uniformWidthMost);
-}
 
 void learnSize(size_t index, int64_t stepNs, const GroupGrid& e, TrackerState& state) {
   Track& track = state.tracks[index];

@@ -8,11 +8,8 @@
 
 namespace rg::objects {
 
-/// Where all things are of one size, a track that isn't was a part of one, or several at once: its
-/// box becomes a usual one, and what that leaves over becomes a newcomer.
-void fitSizeToScene(const TrackerState& state, Track& track);
-
-/// From a track that was seen whole.
+/// From a track that was seen whole. Where all things are of one size, half of what it learns is
+/// what the scene says.
 void learnSize(size_t index, int64_t stepNs, const GroupGrid& evidence, TrackerState& state);
 
 /// Every half height of a track's way the scene learns from the blob that the track is in, whatever
