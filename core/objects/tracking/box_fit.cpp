@@ -113,17 +113,17 @@ Box bestPlace(const GroupGrid& e, const FitTask& task, FitScratch& s, const Numb
   return best;
 }
 
-void takeTurn(const GroupGrid& e, std::span<FitTask> tasks, size_t index, FitScratch& s,
+void takeTurn(const GroupGrid& e, std::span<FitTask> tier, size_t index, FitScratch& s,
               const Numbers::Fit& n) {
-  FitTask& task = tasks[index];
+  FitTask& task = tier[index];
   const Box before = task.fitted;
   claim(e, before, -1, s.claims);
   task.fitted = bestPlace(e, task, s, n);
   claim(e, task.fitted, 1, s.claims);
   s.isSettled[index] = 1;
   if (task.fitted == before) return;
-  for (size_t i = 0; i < tasks.size(); ++i) {
-    const Box window = windowOf(tasks[i]);
+  for (size_t i = 0; i < tier.size(); ++i) {
+    const Box window = windowOf(tier[i]);
     const bool isNear =
         !intersect(window, before).isEmpty() || !intersect(window, task.fitted).isEmpty();
     if (i != index && isNear) s.isSettled[i] = 0;
@@ -135,14 +135,18 @@ void takeTurn(const GroupGrid& e, std::span<FitTask> tasks, size_t index, FitScr
 void fitBoxes(const GroupGrid& e, std::span<FitTask> tasks, FitScratch& s,
               const Numbers::Fit& numbers) {
   s.claims.assign(e.group.size(), 0);
-  for (FitTask& task : tasks) {
-    task.fitted = task.expected;
-    claim(e, task.fitted, 1, s.claims);
+  for (size_t first = 0, last = 0; first < tasks.size(); first = last) {
+    while (last < tasks.size() && tasks[last].tier == tasks[first].tier) ++last;
+    const auto tier = tasks.subspan(first, last - first);
+    for (FitTask& task : tier) {
+      task.fitted = task.expected;
+      claim(e, task.fitted, 1, s.claims);
+    }
+    s.isSettled.assign(tier.size(), 0);
+    for (int round = 0; round < kRounds; ++round)
+      for (size_t i = 0; i < tier.size(); ++i)
+        if (s.isSettled[i] == 0) takeTurn(e, tier, i, s, numbers);
   }
-  s.isSettled.assign(tasks.size(), 0);
-  for (int round = 0; round < kRounds; ++round)
-    for (size_t i = 0; i < tasks.size(); ++i)
-      if (s.isSettled[i] == 0) takeTurn(e, tasks, i, s, numbers);
 }
 
 void assignCells(const GroupGrid& e, std::span<const FitTask> tasks, std::vector<uint16_t>& owner,
@@ -157,9 +161,13 @@ void assignCells(const GroupGrid& e, std::span<const FitTask> tasks, std::vector
         const size_t cell = e.at(x, y);
         if (e.group[cell] == 0) continue;
         uint16_t& mine = owner[cell];
-        if (mine != 0 &&
-            trustOf(e, tasks[mine - 1u], cell, expected) >= trustOf(e, task, cell, expected))
-          continue;
+        if (mine != 0) {
+          const FitTask& other = tasks[mine - 1u];
+          const auto claimOf = [&](const FitTask& t) {
+            return std::tuple(trustOf(e, t, cell, expected), -t.tier, int{t.bonus[e.bin[cell]]});
+          };
+          if (claimOf(other) >= claimOf(task)) continue;
+        }
         mine = static_cast<uint16_t>(i + 1);
       }
   }

@@ -23,6 +23,7 @@ struct FitTask {
   Box expected;    ///< In cells.
   int reachX = 0;  ///< Largest shift searched, in cells.
   int reachY = 0;
+  int tier = 0;                     ///< Boxes of a lower tier choose first and don't yield.
   std::array<int16_t, 32> bonus{};  ///< By colour bin.
   uint16_t track = 0;               ///< As in GroupGrid::expected; 0 = none.
   Box fitted;                       ///< Result.
@@ -37,11 +38,12 @@ struct FitScratch {
   std::vector<uint8_t> isSettled;  ///< Of each task: no rival moved in its window since its turn.
 };
 
+/// tasks must be sorted by tier.
 void fitBoxes(const GroupGrid& evidence, std::span<FitTask> tasks, FitScratch& scratch,
               const Numbers::Fit& numbers = {});
 
-/// For each cell 1 + the task that owns it, 0 = none. Where boxes overlap the one wins that the
-/// region is expected to be, then the earlier task.
+/// For each cell 1 + the task that owns it, 0 = none. Where boxes overlap the lower tier wins, then
+/// the better colour, then the earlier task.
 void assignCells(const GroupGrid& evidence, std::span<const FitTask> tasks,
                  std::vector<uint16_t>& owner, const Numbers::Fit& numbers = {});
 

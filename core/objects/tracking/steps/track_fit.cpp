@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kUnit = kPositionUnit;
 
-/// Where a track's box is looked for.
+/// Where a track's box is looked for. Its tier is open.
 FitTask fitTaskOf(const TrackerState& state, size_t index, const GroupGrid& e, int64_t stepNs) {
   const Track& track = state.tracks[index];
   const Numbers::Fit& n = state.numbers.fit;
@@ -51,11 +51,17 @@ void TrackFit::find(const GroupGrid& e, int64_t stepNs, TrackerState& state) {
   for (size_t i = 0; i < state.tracks.size(); ++i)
     if (state.tracks[i].state != ObjectState::Lost || state.isFaithful(state.tracks[i]))
       order_.push_back(i);
+  const auto tierOf = [&](const Track& t) {
+    return t.unseenNs > 0 ? 2 : t.isConfirmed && state.isSizeKnown(t) ? 0 : 1;
+  };
   std::sort(order_.begin(), order_.end(), [&](size_t a, size_t b) {
     const Track &p = state.tracks[a], &q = state.tracks[b];
-    return std::tuple(-p.foot, p.id) < std::tuple(-q.foot, q.id);
+    return std::tuple(tierOf(p), -p.foot, p.id) < std::tuple(tierOf(q), -q.foot, q.id);
   });
-  for (const size_t i : order_) state.tasks.push_back(fitTaskOf(state, i, e, stepNs));
+  for (const size_t i : order_) {
+    state.tasks.push_back(fitTaskOf(state, i, e, stepNs));
+    state.tasks.back().tier = tierOf(state.tracks[i]);
+  }
   fitBoxes(e, state.tasks, scratch_, state.numbers.fit);
   assignCells(e, state.tasks, state.owner, state.numbers.fit);
   e.forParts(state.owner, [&](const Run& part, uint16_t task) {

@@ -22,11 +22,12 @@ objects::GroupGrid gridWith(Size grid, const std::vector<Box>& foreground, uint8
   return e;
 }
 
-objects::FitTask taskAt(const Box& box) {
+objects::FitTask taskAt(const Box& box, int tier = 0) {
   objects::FitTask task;
   task.expected = box;
   task.reachX = 6;
   task.reachY = 4;
+  task.tier = tier;
   return task;
 }
 
@@ -54,6 +55,16 @@ TEST(BoxFit, TwoBoxesShareAWideBlob) {
   EXPECT_EQ(tasks[1].fitted, (Box{28, 20, 8, 20}));
 }
 
+TEST(BoxFit, AHigherTierTakesWhatIsLeft) {
+  const objects::GroupGrid e = gridWith({60, 60}, {{20, 20, 8, 20}});
+  const auto tasks = fit(e, {taskAt({20, 20, 8, 20}, 0), taskAt({21, 20, 8, 20}, 2)});
+  EXPECT_EQ(tasks[0].fitted, (Box{20, 20, 8, 20}));
+  std::vector<uint16_t> owner;
+  objects::assignCells(e, tasks, owner);
+  EXPECT_EQ(std::count(owner.begin(), owner.end(), 1), 160);
+  EXPECT_EQ(std::count(owner.begin(), owner.end(), 2), 0);
+}
+
 TEST(BoxFit, ColourDecidesWhereTwoPlacesAreAlike) {
   objects::GroupGrid e = gridWith({60, 60}, {{14, 20, 8, 20}, {26, 20, 8, 20}});
   for (int y = 20; y < 40; ++y)
@@ -61,6 +72,18 @@ TEST(BoxFit, ColourDecidesWhereTwoPlacesAreAlike) {
   objects::FitTask task = taskAt({20, 20, 8, 20});
   task.bonus[1] = 2;
   EXPECT_EQ(fit(e, {task})[0].fitted.x, 26);
+}
+
+TEST(BoxFit, ColourDecidesWhoOwnsACellOfBoth) {
+  const objects::GroupGrid e = gridWith({60, 60}, {{20, 20, 8, 20}}, 5);
+  auto tasks = std::vector<objects::FitTask>{taskAt({20, 20, 8, 20}), taskAt({20, 20, 8, 20})};
+  for (objects::FitTask& task : tasks) task.fitted = task.expected;
+  std::vector<uint16_t> owner;
+  objects::assignCells(e, tasks, owner);
+  EXPECT_EQ(owner[e.at(20, 20)], 1);
+  tasks[1].bonus[5] = 1;
+  objects::assignCells(e, tasks, owner);
+  EXPECT_EQ(owner[e.at(20, 20)], 2);
 }
 
 TEST(BoxFit, ABoxPrefersWhatIsExpectedToBeItsOwn) {
