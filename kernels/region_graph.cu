@@ -36,13 +36,14 @@ __device__ void addSums(const RegionSums& own, RegionSums& to) {
   addSum(to.green, own.green);
   addSum(to.blue, own.blue);
   atomicAdd(&to.areaPx, own.areaPx);
-  atomicMin(&to.left, own.left);
-  atomicMax(&to.right, own.right);
-  atomicMin(&to.top, own.top);
-  atomicMax(&to.bottom, own.bottom);
+  // Bounds only move outwards: one that need not move now never need.
+  if (own.left < to.left) atomicMin(&to.left, own.left);
+  if (own.right > to.right) atomicMax(&to.right, own.right);
+  if (own.top < to.top) atomicMin(&to.top, own.top);
+  if (own.bottom > to.bottom) atomicMax(&to.bottom, own.bottom);
 }
 
-/// Inside of regions a warp adds its sums once.
+/// A warp has pixels of one row, of which each run of a region is added once.
 __global__ void sumRegions(const __grid_constant__ LabelledPicture labelled, RegionSums* sums) {
   const Point p = pixelOfThread();
   const bool isInside = isWithin(p, labelled.labels.size);
@@ -51,19 +52,16 @@ __global__ void sumRegions(const __grid_constant__ LabelledPicture labelled, Reg
     const int channel = c < labelled.picture.channels ? c : 0;
     return label == 0 ? 0u : uint32_t{labelled.picture.planes[channel].at(p.x, p.y)};
   };
-  const uint32_t red = level(0), green = level(1), blue = level(2);
-  const uint32_t first = __shfl_sync(kFullWarp, label, 0);
-  const auto y = static_cast<uint64_t>(p.y);
-  if (__all_sync(kFullWarp, label == first)) {
-    const uint32_t reds = sumOfWarp(red), greens = sumOfWarp(green), blues = sumOfWarp(blue);
-    if (threadIdx.x != 0 || label == 0) return;
-    const auto x = static_cast<uint64_t>(p.x) * kWarp + kWarp * (kWarp - 1) / 2;
-    addSums({x, y * kWarp, reds, greens, blues, kWarp, p.x, p.x + kWarp, p.y, p.y + 1},
-            sums[label - 1]);
-  } else if (label != 0) {
-    addSums({static_cast<uint64_t>(p.x), y, red, green, blue, 1, p.x, p.x + 1, p.y, p.y + 1},
-            sums[label - 1]);
-  }
+  const LaneRun run = runOfLane(label);
+  const uint32_t redGreen = sumOfRun(run, level(0) | level(1) << 16);  // 32 levels: 13 bits.
+  const uint32_t blue = sumOfRun(run, level(2));
+  if (!run.isLast || label == 0) return;
+  const int first = p.x - run.before;
+  const auto pixels = static_cast<uint32_t>(run.before + 1);
+  addSums({uint64_t{pixels} * static_cast<uint64_t>(first + p.x) / 2,
+           uint64_t{pixels} * static_cast<uint64_t>(p.y), redGreen & 0xFFFF, redGreen >> 16, blue,
+           pixels, first, p.x + 1, p.y, p.y + 1},
+          sums[label - 1]);
 }
 
 __global__ void describeRegions(const uint32_t* count, const __grid_constant__ GraphView graph) {
