@@ -11,7 +11,7 @@
 namespace rg::gpu::background {
 
 struct SwayView {
-  BitTarget restless, known;
+  BitTarget restless;
   ComponentsView parts;
   rg::background::PartCount* counts;  ///< Of as many parts as there may be.
 };

@@ -210,7 +210,7 @@ class GpuOperations final : public Cpu, private Dispatcher {
     run(
         [&] {
           const Size size = mask.size();
-          const SwayView view{scratchMask(size), scratchMask(size), components(size),
+          const SwayView view{scratchMask(size), components(size),
                               scratch().take<rg::background::PartCount>(mostRuns(size))};
           background::dropSwaying(on().read(picture), on().read(model), tolerance, view,
                                   on().change(mask), stream());

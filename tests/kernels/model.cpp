@@ -77,8 +77,7 @@ void launchCleaning(const Memory& m) {
     gpu::background::fillHoles(m.bits, pixels / 50, {}, stream);
   };
   gpu::background::keepMajority(m.bits, 3, 115, m.bits, stream);
-  gpu::background::dropSwaying(m.planes, m.model, {5, 20}, {m.bits, m.bits, {}, nullptr}, m.bits,
-                               stream);
+  gpu::background::dropSwaying(m.planes, m.model, {5, 20}, {m.bits, {}, nullptr}, m.bits, stream);
   keepWhole();
   gpu::fillUnedged(m.planes.planes[0], kMostGapStep, mostGapPx(m.size), {m.bits, m.bits, {}, {}},
                    m.bits, stream);
