@@ -36,7 +36,7 @@ __device__ void addSums(const RegionSums& own, RegionSums& to) {
   addSum(to.green, own.green);
   addSum(to.blue, own.blue);
   atomicAdd(&to.areaPx, own.areaPx);
-  // Bounds only move outwards: one that need not move now never need.
+  // Bounds only move outwards: where one need not move now, it never will.
   if (own.left < to.left) atomicMin(&to.left, own.left);
   if (own.right > to.right) atomicMax(&to.right, own.right);
   if (own.top < to.top) atomicMin(&to.top, own.top);
