@@ -13,6 +13,7 @@ namespace {
 using rg::motion::ConsensusSums;
 using rg::motion::ConsensusSweep;
 using rg::motion::FitMoments;
+using rg::motion::FitStep;
 using rg::motion::FitSums;
 using rg::motion::kBlockWidth;
 using rg::motion::kCellSize;
@@ -28,6 +29,7 @@ using rg::motion::SeenMotion;
 
 /// Of a block: few, as the steps of a fit take many registers.
 constexpr int kFitThreads = 128, kFitWarps = kFitThreads / kWarp;
+static_assert(FitStep::piecesOf(0) <= kFitThreads && FitStep::piecesOf(1) <= kFitThreads);
 constexpr int kBlocksInCell = 2 * kCellSize, kCellsInPart = rg::motion::kPartHeight / kCellSize;
 /// Of a block of a cell a lane has half.
 constexpr int kLanesOfBlock = kWarp / kBlocksInCell;
@@ -113,7 +115,7 @@ __device__ void sumCells(const MatchedRegions& regions, const RefinedRegion& reg
   if (moment >= kMoments) return;
   int64_t sum = 0;
   for (int i = 0; i < kFitWarps; ++i) sum += values[i * kMoments + moment];
-  reinterpret_cast<int64_t*>(&moments)[moment] = sum;
+  rg::motion::momentOf(moments, static_cast<size_t>(moment)) = sum;
 }
 
 /// What a block of threads fits.
@@ -122,21 +124,20 @@ struct OwnFit {
   const RefinedRegion& region;
   FitState& s;
 
-  /// rg::motion::fitMotion from s.fit, which thread 0 has written, into s.fit. One thread takes the
-  /// steps: each of their operations needs the ones before. All threads must call.
+  /// rg::motion::fitMotion from s.fit, which thread 0 has written, into s.fit. All threads must
+  /// call.
   __device__ void run(const SeenPlane& plane, const MotionPrior& prior, int steps) const {
     if (threadIdx.x == 0) s.start = s.fit.at;
     __syncthreads();
     for (int i = 0; i < steps; ++i) {
       sumCells(regions, region, plane, s.fit, s.moments);
       __syncthreads();
-      if (threadIdx.x == 0)
-        s.isSettled = rg::motion::takeStep(s.moments, {s.start, plane.previous.reach}, prior,
-                                           s.equations, s.fit)
-                          ? 1
-                          : 0;
-      __syncthreads();
-      if (s.isSettled != 0) break;
+      const FitStep step{s.moments, {s.start, plane.previous.reach}, prior, s.equations, s.fit};
+      for (int part = 0; part < FitStep::kParts; ++part) {
+        if (threadIdx.x < FitStep::piecesOf(part)) step.run(part, threadIdx.x);
+        __syncthreads();
+      }
+      if (step.isSettled()) break;
     }
   }
   /// For thread 0.

@@ -30,7 +30,6 @@ struct FitState {
   Point start;
   int64_t known;     ///< The least information of `own`.
   uint8_t isSmooth;  ///< `own` is of the smoothed plane.
-  uint8_t isSettled;
   rg::motion::FitMoments moments;
   rg::motion::FitEquations equations;
 };

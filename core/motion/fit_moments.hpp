@@ -93,7 +93,16 @@ constexpr void addCell(const FitSums& sums, Point offset, FitMoments& moments) {
 }
 
 inline constexpr int kMoments = 35;
-/// What addCell() adds to number `i` of the moments, in the order in which they stand.
+/// Number `i` of the moments, in the order in which they stand.
+template <class Moments>
+constexpr auto& momentOf(Moments& m, size_t i) {
+  if (i < 18) return i < 6 ? m.xx[i] : i < 12 ? m.xy[i - 6] : m.yy[i - 12];
+  if (i < 24) return i < 21 ? m.xr[i - 18] : m.yr[i - 21];
+  if (i < 30) return i < 27 ? m.x[i - 24] : m.y[i - 27];
+  if (i < 33) return i == 30 ? m.pixels : i == 31 ? m.seen : m.r;
+  return i == 33 ? m.rr : m.misfit;
+}
+/// What addCell() adds to it.
 constexpr int64_t momentOf(const FitSums& sums, Point offset, int i) {
   const auto placeOf = [&](int place) {
     const int x = offset.x, y = offset.y;

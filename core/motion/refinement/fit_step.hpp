@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // From the sums over a region's pixels to a step of the fit of its motion (part of stage 4): one
-// arithmetic for the CPU and for devices.
+// arithmetic for the CPU, which does all in turn, and for devices, where threads share it.
 // Determinism: integers; blocks of two unknowns are solved in turn, a fixed number of times.
 #pragma once
 
@@ -44,11 +44,12 @@ using Unknowns = std::array<int64_t, kUnknowns>;
 /// Means in 1/4096, positions in units of 32 px. Unknowns: x, y, then x along X and Y, then y along
 /// X and Y. Those of x go with the gradient gx, those of y with gy.
 struct FitEquations {
+  FitMoments means;  ///< In the moments' places: see detail::meanOf().
   std::array<Unknowns, kUnknowns> products;
-  Unknowns right;     ///< In 1/256 px times products.
-  Unknowns gradient;  ///< Means.
+  Unknowns right;  ///< In 1/256 px times products.
   Unknowns step;
-  int64_t variance;  ///< Of a fitting pixel, 1/256 grey levels squared.
+  Information information;  ///< Of any width.
+  int64_t priorWeight, slopeWeight;
 };
 
 // No references to constants and no tables: a device has none of the host's.
@@ -82,9 +83,6 @@ inline constexpr int64_t kSettled = kFine / 32;
 [[nodiscard]] constexpr size_t placeOf(size_t unknown) {
   return unknown < 2 ? 0 : 1 + unknown % 2;
 }
-[[nodiscard]] constexpr int placesOf(size_t unknown) {
-  return unknown < 2 ? 0 : 1;
-}
 /// Where FitMoments have the product of two places.
 [[nodiscard]] constexpr size_t productOf(size_t a, size_t b) {
   return a == 0 || b == 0 ? a + b : a + b + 1;
@@ -105,27 +103,38 @@ static_assert(productOf(0, 2) == 2 && productOf(1, 1) == 3 && productOf(1, 2) ==
   return scaled / (places == 0 ? 1 : places == 1 ? kSlopeUnitPx : kSlopeUnitPx * kSlopeUnitPx);
 }
 
-/// The shared change of brightness is eliminated: it takes the means out of all products.
-constexpr void normalise(const FitMoments& moments, FitEquations& e) {
+/// What stands for moment number `i` in FitEquations::means: of misfits and squared residuals the
+/// mean as it is; of the pixels, how well a shared change of brightness is known, in 1/256.
+[[nodiscard]] constexpr int64_t meanOf(const FitMoments& moments, size_t i) {
+  const int64_t sum = momentOf(moments, i);
   const int64_t count = larger(moments.pixels, 1);
-  const int64_t known = count * 256 / (count + kSteadyPixels);
-  for (size_t i = 0; i < kUnknowns; ++i)
-    e.gradient[i] =
-        meanOf(isOfY(i) ? moments.y[placeOf(i)] : moments.x[placeOf(i)], count, placesOf(i));
-  const int64_t residual = meanOf(moments.r, count, 0);
-  const auto common = [&](int64_t a, int64_t b) { return ((a * b) >> kMeanBits) * known / 256; };
-  for (size_t i = 0; i < kUnknowns; ++i) {
-    for (size_t j = i; j < kUnknowns; ++j) {
-      e.products[i][j] = meanOf(productOf(moments, i, j), count, placesOf(i) + placesOf(j)) -
-                         common(e.gradient[i], e.gradient[j]);
-      e.products[j][i] = e.products[i][j];
-    }
-    const int64_t product = isOfY(i) ? moments.yr[placeOf(i)] : moments.xr[placeOf(i)];
-    e.right[i] = -2 * (meanOf(product, count, placesOf(i)) - common(e.gradient[i], residual));
-  }
+  if (i < 18) return meanOf(sum, count, i % 6 == 0 ? 0 : i % 6 < 3 ? 1 : 2);
+  if (i < 30) return meanOf(sum, count, i % 3 == 0 ? 0 : 1);
+  if (i == 30) return count * 256 / (count + kSteadyPixels);
+  if (i == 31) return sum;
+  if (i == 32) return meanOf(sum, count, 0);
+  return i == 33 ? sum / count : sum / larger(moments.seen, 1);
+}
+
+/// What a shared change of brightness explains of a product: it is eliminated.
+[[nodiscard]] constexpr int64_t shared(const FitMoments& means, int64_t a, int64_t b) {
+  return ((a * b) >> kMeanBits) * means.pixels / 256;
+}
+[[nodiscard]] constexpr int64_t gradientOf(const FitMoments& means, size_t unknown) {
+  return isOfY(unknown) ? means.y[placeOf(unknown)] : means.x[placeOf(unknown)];
+}
+[[nodiscard]] constexpr int64_t productOf(const FitEquations& e, size_t i, size_t j) {
+  return productOf(e.means, i, j) - shared(e.means, gradientOf(e.means, i), gradientOf(e.means, j));
+}
+[[nodiscard]] constexpr int64_t rightOf(const FitEquations& e, size_t i) {
+  const int64_t product = isOfY(i) ? e.means.yr[placeOf(i)] : e.means.xr[placeOf(i)];
+  return -2 * (product - shared(e.means, gradientOf(e.means, i), e.means.r));
+}
+/// Of a fitting pixel, 1/256 grey levels squared.
+[[nodiscard]] constexpr int64_t varianceOf(const FitMoments& means) {
   // A residual in 1/256 squared is 2^16 of a grey level squared.
-  const int64_t mean = residual >> kMeanBits;
-  e.variance = larger(moments.rr / count - (mean * mean >> 8) * known / 256, kLeastVariance);
+  const int64_t mean = means.r >> kMeanBits;
+  return larger(means.rr - (mean * mean >> 8) * means.pixels / 256, kLeastVariance);
 }
 
 /// By how many bits a number is wider than `bits`.
@@ -139,43 +148,33 @@ constexpr void normalise(const FitMoments& moments, FitEquations& e) {
   return 2 * weight * variance / larger(pixels, 1);
 }
 
-constexpr void addExpectations(const MotionFit& fit, const MotionPrior& prior, int64_t pixels,
-                               FitEquations& e) {
-  const int64_t weight = perPixel(prior.weight, e.variance, pixels);
-  e.products[0][0] += kFlat + weight;
-  e.products[1][1] += kFlat + weight;
-  e.right[0] += weight * (prior.at.x - fit.at.x);
-  e.right[1] += weight * (prior.at.y - fit.at.y);
-  const int64_t flatness = perPixel(kSlopeWeight, e.variance, pixels);
-  for (size_t i = 2; i < kUnknowns; ++i) {
-    e.products[i][i] += flatness;
-    e.right[i] -= flatness * fit.slopes[i - 2];
-  }
+/// What is known of a product of the unknowns x and y.
+[[nodiscard]] constexpr int64_t informationOf(int64_t product, int64_t variance, int64_t pixels) {
+  return pixels * product / (kCorrelation * variance / 4);
 }
-
 /// Of at most 30 bits, its shape kept.
-[[nodiscard]] constexpr Information informationOf(const FitEquations& e, int64_t pixels) {
+[[nodiscard]] constexpr Information narrowed(const Information& i) {
   constexpr int kMostBits = 30;
-  const auto known = [&](int64_t product) {
-    return pixels * product / (kCorrelation * e.variance / 4);
-  };
-  const Information i{known(e.products[0][0]), known(e.products[0][1]), known(e.products[1][1])};
   const int shift = excessBits(larger(i.xx, i.yy), kMostBits);
   return {i.xx >> shift, i.xy >> shift, i.yy >> shift};
 }
 }  // namespace detail
 
-/// Solves (xx xy; xy yy) · step = right, 0 where that has no single answer. All numbers are scaled
-/// down to 30 bits together, so that the products fit.
-[[nodiscard]] constexpr Step solveStep(int64_t xx, int64_t xy, int64_t yy, Step right) {
+/// Solves (xx xy; xy yy) · step = right for the step's x (unknown 0) or y (1), 0 where that has no
+/// single answer. All numbers are scaled down to 30 bits together, so that the products fit.
+[[nodiscard]] constexpr int64_t solveFor(size_t unknown, int64_t xx, int64_t xy, int64_t yy,
+                                         const Step& right) {
   using detail::larger, detail::magnitude;
   const int shift = detail::excessBits(
       larger(larger(xx, yy), larger(magnitude(right.x), magnitude(right.y))), 30);
   const int64_t a = xx >> shift, b = xy >> shift, c = yy >> shift;
   const int64_t u = right.x >> shift, v = right.y >> shift;
   const int64_t determinant = a * c - b * b;
-  if (determinant <= 0) return {};
-  return {divideRounded(c * u - b * v, determinant), divideRounded(a * v - b * u, determinant)};
+  if (determinant <= 0) return 0;
+  return divideRounded(unknown == 0 ? c * u - b * v : a * v - b * u, determinant);
+}
+[[nodiscard]] constexpr Step solveStep(int64_t xx, int64_t xy, int64_t yy, const Step& right) {
+  return {solveFor(0, xx, xy, yy, right), solveFor(1, xx, xy, yy, right)};
 }
 
 /// The lesser of the two eigenvalues.
@@ -187,56 +186,111 @@ constexpr void addExpectations(const MotionFit& fit, const MotionPrior& prior, i
   return detail::larger(sum - root, 0) / 2;
 }
 
-/// Into e.step.
-constexpr void solve(FitEquations& e) {
-  for (size_t i = 0; i < kUnknowns; ++i) e.step[i] = 0;
-  for (int turn = 0; turn < detail::kTurns; ++turn)
-    for (size_t i = 0; i < kUnknowns; i += 2) {
-      Step right{e.right[i], e.right[i + 1]};
-      for (size_t j = 0; j < kUnknowns; ++j) {
-        if (j / 2 == i / 2) continue;
-        right.x -= e.products[i][j] * e.step[j];
-        right.y -= e.products[i + 1][j] * e.step[j];
-      }
-      const Step result =
-          solveStep(e.products[i][i], e.products[i][i + 1], e.products[i + 1][i + 1], right);
-      e.step[i] = std::clamp<int64_t>(result.x, -kFine, kFine);
-      e.step[i + 1] = std::clamp<int64_t>(result.y, -kFine, kFine);
-    }
-}
-
 /// Where a fit comes from, and how far it may go.
 struct FitStart {
   Point at;       ///< 1/256 px; from there less than 1.5 px.
   int reach = 0;  ///< Of the plane, in pixels.
 };
 
-/// A step of a fit by what was summed up at it; whether that was short enough to be the last one.
-/// information, misfit, pixels and seen are those of before. e: scratch.
-constexpr bool takeStep(const FitMoments& moments, const FitStart& start, const MotionPrior& prior,
-                        FitEquations& e, MotionFit& fit) {
-  detail::normalise(moments, e);
-  fit.pixels = static_cast<uint32_t>(moments.pixels);
-  fit.seen = static_cast<uint32_t>(moments.seen);
-  fit.misfit = moments.misfit / detail::larger(moments.seen, 1);
-  fit.information = detail::informationOf(e, moments.pixels);
-  detail::addExpectations(fit, prior, moments.pixels, e);
-  solve(e);
-  const int most = start.reach * kFine;
-  const auto moved = [&](int at, int64_t by, int origin) {
-    const int near =
-        std::clamp(at + static_cast<int>(by), origin - kFine * 3 / 2, origin + kFine * 3 / 2);
-    return std::clamp(near, -most, most);
-  };
-  fit.at = {moved(fit.at.x, e.step[0], start.at.x), moved(fit.at.y, e.step[1], start.at.y)};
-  bool isSettled = true;
-  for (size_t i = 0; i < kUnknowns; ++i) {
-    if (i >= 2)
-      fit.slopes[i - 2] =
-          std::clamp(fit.slopes[i - 2] + static_cast<int>(e.step[i]), -kFine, +kFine);
-    isSettled = isSettled && detail::magnitude(e.step[i]) <= detail::kSettled;
+/// A step of a fit by what was summed up at it, in parts that follow each other; the pieces of a
+/// part come in any order, or at once.
+struct FitStep {
+  const FitMoments& moments;
+  FitStart start;
+  const MotionPrior& prior;
+  FitEquations& e;  ///< Scratch.
+  MotionFit& fit;   ///< Gets the step; information, misfit, pixels and seen are those of before it.
+
+  static constexpr int kSolved = 4, kBlocks = kUnknowns / 2;
+  static constexpr int kLast = kSolved + detail::kTurns * kBlocks, kParts = kLast + 1;
+
+  [[nodiscard]] static constexpr size_t piecesOf(int part) {
+    if (part == 0) return kMoments;
+    if (part == 1) return kUnknowns * (kUnknowns + 1);
+    if (part == 2) return 5;
+    if (part == 3) return kUnknowns;
+    return part < kLast ? 2 : kUnknowns + 1;
   }
-  return isSettled;
-}
+  constexpr void run(int part, size_t piece) const {
+    if (part == 0)
+      momentOf(e.means, piece) = detail::meanOf(moments, piece);
+    else if (part == 1)
+      setUp(piece);
+    else if (part == 2)
+      weigh(piece);
+    else if (part == 3)
+      expect(piece);
+    else if (part < kLast)
+      solve(static_cast<size_t>((part - kSolved) % kBlocks) * 2, piece);
+    else
+      move(piece);
+  }
+  /// After all parts: whether the step was short enough to be the last one.
+  [[nodiscard]] constexpr bool isSettled() const {
+    bool isShort = true;
+    for (size_t i = 0; i < kUnknowns; ++i)
+      isShort = isShort && detail::magnitude(e.step[i]) <= detail::kSettled;
+    return isShort;
+  }
+
+ private:
+  constexpr void setUp(size_t piece) const {
+    const size_t row = piece / kUnknowns, i = piece % kUnknowns;
+    if (row < kUnknowns)
+      e.products[row][i] = detail::productOf(e, row, i);
+    else
+      e.right[i] = detail::rightOf(e, i);
+  }
+  constexpr void weigh(size_t piece) const {
+    const int64_t variance = detail::varianceOf(e.means), pixels = moments.pixels;
+    const auto known = [&](int64_t product) {
+      return detail::informationOf(product, variance, pixels);
+    };
+    if (piece == 0) e.information.xx = known(e.products[0][0]);
+    if (piece == 1) e.information.xy = known(e.products[0][1]);
+    if (piece == 2) e.information.yy = known(e.products[1][1]);
+    if (piece == 3) e.priorWeight = detail::perPixel(prior.weight, variance, pixels);
+    if (piece == 4) e.slopeWeight = detail::perPixel(detail::kSlopeWeight, variance, pixels);
+  }
+  constexpr void expect(size_t i) const {
+    const int64_t weight = i < 2 ? e.priorWeight : e.slopeWeight;
+    e.products[i][i] += weight + (i < 2 ? detail::kFlat : 0);
+    e.right[i] += weight * (i == 0   ? prior.at.x - fit.at.x
+                            : i == 1 ? prior.at.y - fit.at.y
+                                     : -fit.slopes[i - 2]);
+    e.step[i] = 0;
+  }
+  /// For one of two unknowns, with the others as they are.
+  constexpr void solve(size_t first, size_t piece) const {
+    Step right{e.right[first], e.right[first + 1]};
+    for (size_t j = 0; j < kUnknowns; ++j) {
+      if (j / 2 == first / 2) continue;
+      right.x -= e.products[first][j] * e.step[j];
+      right.y -= e.products[first + 1][j] * e.step[j];
+    }
+    const int64_t solved = solveFor(piece, e.products[first][first], e.products[first][first + 1],
+                                    e.products[first + 1][first + 1], right);
+    e.step[first + piece] = std::clamp<int64_t>(solved, -kFine, kFine);
+  }
+  constexpr void move(size_t piece) const {
+    const int most = start.reach * kFine;
+    const auto moved = [&](int at, int64_t by, int origin) {
+      const int near =
+          std::clamp(at + static_cast<int>(by), origin - kFine * 3 / 2, origin + kFine * 3 / 2);
+      return std::clamp(near, -most, most);
+    };
+    if (piece == 0) fit.at.x = moved(fit.at.x, e.step[0], start.at.x);
+    if (piece == 1) fit.at.y = moved(fit.at.y, e.step[1], start.at.y);
+    if (piece >= 2 && piece < kUnknowns) {
+      int& slope = fit.slopes[piece - 2];
+      slope = std::clamp(slope + static_cast<int>(e.step[piece]), -kFine, +kFine);
+    }
+    if (piece < kUnknowns) return;
+    fit.information = detail::narrowed(e.information);
+    fit.misfit = e.means.misfit;
+    fit.pixels = static_cast<uint32_t>(moments.pixels);
+    fit.seen = static_cast<uint32_t>(moments.seen);
+  }
+};
 
 }  // namespace rg::motion

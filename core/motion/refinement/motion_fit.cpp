@@ -11,7 +11,10 @@ MotionFit fitMotion(const FitRegion& region, const FitPlane& plane, const Motion
   for (int i = 0; i < steps; ++i) {
     const FitMoments moments =
         sumMoments(region.parts, plane, {fit.at, fit.slopes, region.centroid}, region.limit);
-    if (takeStep(moments, from, prior, equations, fit)) break;
+    const FitStep step{moments, from, prior, equations, fit};
+    for (int part = 0; part < FitStep::kParts; ++part)
+      for (size_t piece = 0; piece < FitStep::piecesOf(part); ++piece) step.run(part, piece);
+    if (step.isSettled()) break;
   }
   return fit;
 }
