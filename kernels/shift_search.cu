@@ -50,45 +50,63 @@ __global__ void sumBoxesOfPixels(PaddedView luma, BoxesView to) {
   to.rows.at(p.x, p.y) = static_cast<uint16_t>(sum);
 }
 
-/// What a thread sums up: one shift of one region.
-struct ShiftedPart {
-  const SearchedPlanes& planes;
-  Point e;
-
-  __device__ const uint8_t* before(int x, int y) const {
-    const PaddedView& previous = planes.previous;
-    return previous.rows.row(y + e.y + previous.reach) + x + e.x + previous.reach;
-  }
-  /// Of a block of 4x1 pixels, which lies on a boundary of four.
-  __device__ uint32_t difference(int x, int y) const {
-    return __vsadu4(loadQuad(planes.luma.row(y) + x), loadQuadAnywhere(before(x, y)));
-  }
-  /// Of the sums of a box of 4x4 pixels.
-  __device__ uint32_t boxDifference(int x, int y) const {
-    unsigned now = 0;
-    for (int row = 0; row < kBoxSide; ++row)
-      now += __vsadu4(loadQuad(planes.luma.row(y + row) + x), 0);
-    const int reach = planes.previous.reach;
-    const int then = planes.boxes.rows.at(x + e.x + reach, y + e.y + reach);
-    return static_cast<uint32_t>(absDiff(static_cast<int>(now), then));
-  }
-};
+/// Neighbouring columns of one row of shifts: their pixels lie in two words.
+constexpr int kShiftsOfThread = 4;
 
 struct Sums {
-  uint32_t sum = 0, bound = 0;
+  uint32_t sums[kShiftsOfThread] = {}, bounds[kShiftsOfThread] = {};
+};
+
+/// How many columns before a range's first one the padded row's last boundary of four lies.
+[[nodiscard]] constexpr int columnsAhead(int rowsReach, int reach) {
+  return (rowsReach - reach) % kShiftsOfThread;
+}
+[[nodiscard]] constexpr int groupsInRow(int rowsReach, int reach) {
+  return (2 * reach + columnsAhead(rowsReach, reach) + kShiftsOfThread) / kShiftsOfThread;
+}
+static_assert(groupsInRow(4, 4) == 3 && groupsInRow(6, 4) == 3 && groupsInRow(8, 5) == 4);
+
+/// What a thread sums up: four shifts of one region. `by`: from a pixel to that of the first of
+/// them in the padded rows.
+struct ShiftedParts {
+  const SearchedPlanes& planes;
+  Point by;
+
+  /// Adds a block of 4x1 pixels, which lies on a boundary of four, as the shifts do.
+  __device__ void addBlock(unsigned now, int x, int y, Sums& to) const {
+    const uint8_t* before = planes.previous.rows.row(y + by.y) + x + by.x;
+    const unsigned low = loadQuad(before), high = loadQuad(before + 4);
+    for (unsigned i = 0; i < kShiftsOfThread; ++i)
+      to.sums[i] += __vsadu4(now, __funnelshift_r(low, high, 8 * i));
+  }
+  /// Adds a box of 4x4 pixels, of which the sum is `now`.
+  __device__ void addBox(unsigned now, int x, int y, Sums& to) const {
+    const auto* before =
+        reinterpret_cast<const uint8_t*>(planes.boxes.rows.row(y + by.y) + x + by.x);
+    const unsigned pairs[] = {loadQuad(before), loadQuad(before + 4)};
+    for (unsigned i = 0; i < kShiftsOfThread; ++i)
+      to.bounds[i] += static_cast<uint32_t>(absDiff(
+          static_cast<int>(now), static_cast<int>(pairs[i / 2] >> (16 * (i % 2)) & 0xFFFF)));
+  }
 };
 
 /// Boxes are as many as fit below each other into each run of blocks, as rg::motion::forBoxes has
 /// them.
-__device__ void addHalf(const MatchedPart& part, int half, const ShiftedPart& shifted, Sums& sums) {
+__device__ void addHalf(const MatchedPart& part, int half, const ShiftedParts& shifted,
+                        Sums& sums) {
   const int x = part.x() + half * kBlockWidth;
+  unsigned box = 0;
   for (int row = 0, run = 0; row < kPartHeight; ++row) {
-    const bool isMatched = (part.blocks >> (2 * row + half) & 1) != 0;
-    run = isMatched ? run + 1 : 0;
-    if (!isMatched) continue;
-    sums.sum += shifted.difference(x, part.y() + row);
-    if (run < kBoxSide) continue;
-    sums.bound += shifted.boxDifference(x, part.y() + row - kBoxSide + 1);
+    if ((part.blocks >> (2 * row + half) & 1) == 0) {
+      run = 0;
+      continue;
+    }
+    const int y = part.y() + row;
+    const unsigned now = loadQuad(shifted.planes.luma.row(y) + x);
+    shifted.addBlock(now, x, y, sums);
+    box = (run == 0 ? 0 : box) + __vsadu4(now, 0);
+    if (++run < kBoxSide) continue;
+    shifted.addBox(box, x, y - kBoxSide + 1, sums);
     run = 0;
   }
 }
@@ -99,21 +117,28 @@ __device__ ShiftRange rangeOf(const MatchedRegions& regions, int region, const S
                  : most;
 }
 
-/// A thread for each shift; neighbours in a warp see neighbouring pixels.
+/// A thread for four shifts; neighbours in a warp see neighbouring words.
 __global__ void sumShifts(const __grid_constant__ MatchedRegions regions, int firstRegion,
                           const __grid_constant__ SearchedPlanes planes, ShiftRange most,
                           ShiftSums out) {
   const int region = firstRegion + static_cast<int>(blockIdx.y);
-  const int reach = rangeOf(regions, region, most).reach;
-  const int side = 2 * reach + 1, shift = indexInGrid();
-  if (shift >= side * side) return;
-  const ShiftedPart shifted{planes, {reach - shift % side, reach - shift / side}};
+  const int reach = rangeOf(regions, region, most).reach, rowsReach = planes.previous.reach;
+  const int side = 2 * reach + 1, groups = groupsInRow(rowsReach, reach);
+  const int group = indexInGrid() % groups, row = indexInGrid() / groups;
+  if (row >= side) return;
+  const int column = group * kShiftsOfThread - columnsAhead(rowsReach, reach);
+  const ShiftedParts shifted{planes,
+                             {rowsReach - reach + column, rowsReach - reach + side - 1 - row}};
   Sums sums;
   for (uint32_t i = regions.starts[region]; i < regions.starts[region + 1]; ++i)
     for (int half = 0; half < 2; ++half) addHalf(regions.parts[i], half, shifted, sums);
-  const int at = static_cast<int>(blockIdx.y) * shiftsOf(most) + shift;
-  out.sums[at] = sums.sum;
-  out.bounds[at] = sums.bound;
+  // To the right in the previous picture is a shift further to the left.
+  const int first = static_cast<int>(blockIdx.y) * shiftsOf(most) + row * side + side - 1 - column;
+  for (int i = 0; i < kShiftsOfThread; ++i) {
+    if (column + i < 0 || column + i >= side) continue;
+    out.sums[first - i] = sums.sums[i];
+    out.bounds[first - i] = sums.bounds[i];
+  }
 }
 
 /// Smallest (sum, |d|², d.y, d.x): |d|² < 2^14, and the rest fits a byte each.
@@ -189,8 +214,9 @@ void searchShifts(const MatchedRegions& regions, const SearchedPlanes& planes,
                   const ShiftRange& range, const ShiftSums& scratch, FoundShift* found,
                   Stream stream) {
   const int shifts = shiftsOf(range);
-  // Of a region no more are matched than are enough, and a cell. Of four pixels: two loads, a
-  // shift, a sum of differences, and as much for the loop; a quarter of it for the box.
+  const int reach = range.reach, rowsReach = planes.previous.reach;
+  // Of a region no more are matched than are enough, and a cell. Of four pixels and four shifts:
+  // three loads, three shifts, four sums of differences, and as much for the loop and the box.
   constexpr double kMostOfRegion =
       rg::motion::kEnoughPx + rg::motion::kCellSize * rg::motion::kCellSize;
   const double share = 1.0 / std::max(1, regions.count);
@@ -200,9 +226,10 @@ void searchShifts(const MatchedRegions& regions, const SearchedPlanes& planes,
     const int count = std::min(scratch.regions, regions.count - first);
     const auto each = static_cast<double>(count);
     start({"sumShifts",
-           {blocksFor(shifts, kReduceThreads), static_cast<unsigned>(count), 1},
+           {blocksFor(int64_t{2 * reach + 1} * groupsInRow(rowsReach, reach), kReduceThreads),
+            static_cast<unsigned>(count), 1},
            {kReduceThreads, 1, 1},
-           {each * (4 * pixels + 8.0 * shifts), each * 2.5 * pixels * shifts}},
+           {each * (4 * pixels + 8.0 * shifts), each * 1.25 * pixels * shifts}},
           stream, sumShifts, regions, first, planes, range, scratch);
     start({"chooseShifts",
            {static_cast<unsigned>(count), 1, 1},
