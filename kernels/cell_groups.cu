@@ -168,7 +168,7 @@ __global__ void numberCells(const __grid_constant__ Grouped<Links> cells) {
 }
 
 __global__ void clearPairs(int64_t cells, GroupsView groups) {
-  const uint32_t slots = slotsOf(cells, groups.numbers[cells]), stride = gridDim.x * blockDim.x;
+  const uint32_t slots = slotsOf(cells, groups.numbers[cells]), stride = threadsOfGrid();
   for (auto i = static_cast<uint32_t>(indexInGrid()); i < slots; i += stride)
     clearSlot(groups.pairs, i);
   if (indexInGrid() == 0) *groups.borders.count = 0;
@@ -200,7 +200,7 @@ __global__ void countBorders(ImageView<const uint8_t> scope, Size size, GroupsVi
 }
 
 __global__ void listBorders(int64_t cells, uint32_t sidePx, GroupsView groups) {
-  const uint32_t slots = slotsOf(cells, groups.numbers[cells]), stride = gridDim.x * blockDim.x;
+  const uint32_t slots = slotsOf(cells, groups.numbers[cells]), stride = threadsOfGrid();
   // Whole warps: there are 64 slots at least.
   for (auto i = static_cast<uint32_t>(indexInGrid()); i < slots; i += stride) {
     const unsigned long long key = groups.pairs.keys[i];

@@ -2,6 +2,7 @@
 #include "kernels/components.hpp"
 #include "kernels/forest.hpp"
 #include "kernels/start.hpp"
+#include "kernels/warp_runs.hpp"
 #include "kernels/word_runs.hpp"
 
 namespace rg::gpu {
@@ -43,18 +44,6 @@ __device__ int endOf(const Wanted& wanted, Point at, int first) {
   return std::min(end, wanted.mask.size.width);
 }
 
-__global__ void listRuns(Wanted wanted, ComponentsView found) {
-  const WordOfThread word = wordOfThread(wanted.mask.words.size);
-  if (!word.isInside) return;
-  uint32_t run = found.firstRun[word.index];
-  for (uint64_t begins = beginsOf(wanted, word.at); begins != 0; begins &= begins - 1, ++run) {
-    const int first = lowestBit(begins);
-    const int end = endOf(wanted, word.at, first);
-    found.runs[run] = {runOf(word.at.y, word.at.x * kWordColumns + first, end), 0};
-    found.parents[run] = run;
-  }
-}
-
 /// How many runs begin in the raster up to column x of row y.
 __device__ uint32_t runsUpTo(const Wanted& wanted, const ComponentsView& found, int x, int y) {
   const Point at{x / kWordColumns, y};
@@ -63,19 +52,58 @@ __device__ uint32_t runsUpTo(const Wanted& wanted, const ComponentsView& found, 
          static_cast<uint32_t>(__popcll(beginsOf(wanted, at) & upTo));
 }
 
-__global__ void joinRows(Wanted wanted, int reach, ComponentsView found) {
+/// The runs `first` to `last` - 1 of the row above that touch a run.
+struct TouchedRuns {
+  uint32_t first = 0, last = 0;
+};
+__device__ TouchedRuns runsAbove(const Wanted& wanted, int reach, const Run& run,
+                                 const ComponentsView& found) {
+  const int above = run.y - 1;
+  if (above < 0) return {};
+  const int left = std::max(0, run.begin - reach);
+  const int right = std::min(wanted.mask.size.width, run.end + reach) - 1;
+  const uint64_t bits = bitsOf(wanted, {left / kWordColumns, above});
+  const bool isInRun = (bits >> left % kWordColumns & 1) != 0;
+  return {runsUpTo(wanted, found, left, above) - (isInRun ? 1 : 0),
+          runsUpTo(wanted, found, right, above)};
+}
+
+/// Each run hangs on the first one that it touches above it.
+__global__ void listRuns(Wanted wanted, int reach, ComponentsView found) {
   const WordOfThread word = wordOfThread(wanted.mask.words.size);
-  if (!word.isInside || word.at.y == 0) return;
-  forRunsFrom(found, word.index, [&](uint32_t run) {
-    const int above = word.at.y - 1;
-    const int left = std::max(0, found.runs[run].begin - reach);
-    const int right = std::min(wanted.mask.size.width, found.runs[run].end + reach) - 1;
-    const uint64_t bits = bitsOf(wanted, {left / kWordColumns, above});
-    const bool isInRun = (bits >> left % kWordColumns & 1) != 0;
-    uint32_t other = runsUpTo(wanted, found, left, above) - (isInRun ? 1 : 0);
-    const uint32_t last = runsUpTo(wanted, found, right, above);
-    for (; other < last; ++other) join(found.parents, run, other);
-  });
+  if (!word.isInside) return;
+  uint32_t number = found.firstRun[word.index];
+  for (uint64_t begins = beginsOf(wanted, word.at); begins != 0; begins &= begins - 1, ++number) {
+    const int first = lowestBit(begins);
+    const Run run =
+        runOf(word.at.y, word.at.x * kWordColumns + first, endOf(wanted, word.at, first));
+    found.runs[number] = {run, 0};
+    const TouchedRuns above = runsAbove(wanted, reach, run, found);
+    found.parents[number] = above.first < above.last ? above.first : number;
+  }
+}
+
+/// How many runs there are.
+__device__ uint32_t runsOf(Size words, const ComponentsView& found) {
+  return found.firstRun[words.area()];
+}
+
+/// Joins what a run touches besides. All shorten their ways first: of a tall thing's runs one hangs
+/// on the other, and to walk that way takes longer than all else.
+__global__ void joinRows(Wanted wanted, int reach, ComponentsView found) {
+  constexpr int kJumps = 8;
+  const uint32_t runs = runsOf(wanted.mask.words.size, found);
+  for (auto run = static_cast<uint32_t>(indexInGrid()); run < runs; run += threadsOfGrid()) {
+    uint32_t parent = found.parents[run];
+    for (int i = 0; i < kJumps; ++i) {
+      const uint32_t next = found.parents[parent];
+      if (next == parent) break;
+      found.parents[run] = parent = next;
+    }
+    const TouchedRuns above = runsAbove(wanted, reach, found.runs[run], found);
+    for (uint32_t other = above.first + 1; other < above.last; ++other)
+      join(found.parents, run, other);
+  }
 }
 
 /// Each run's parent is its component's first run from then on.
@@ -105,18 +133,47 @@ __global__ void numberComponents(Size words, int width, ComponentsView found) {
   });
 }
 
+/// Of runs that come in raster order.
+struct RunSums {
+  uint32_t areaPx;
+  int left, right, bottom;
+};
+
+__device__ void addTo(Component& component, const RunSums& sums) {
+  atomicAdd(&component.areaPx, sums.areaPx);
+  atomicMin(&component.box.x, sums.left);
+  atomicMax(&component.box.width, sums.right);
+  atomicMax(&component.box.height, sums.bottom);
+}
+
+/// Runs that neighbour in the raster are mostly of few components: those that most lanes of a warp
+/// would add to are added to once.
 __global__ void sumComponents(Size words, ComponentsView found) {
-  const WordOfThread word = wordOfThread(words);
-  if (!word.isInside) return;
-  forRunsFrom(found, word.index, [&](uint32_t i) {
-    ComponentRun& run = found.runs[i];
-    run.component = found.numbers[found.parents[i]];
-    Component& component = found.list[run.component];
-    atomicAdd(&component.areaPx, static_cast<uint32_t>(run.end - run.begin));
-    atomicMin(&component.box.x, static_cast<int>(run.begin));
-    atomicMax(&component.box.width, static_cast<int>(run.end));
-    atomicMax(&component.box.height, run.y + 1);
-  });
+  constexpr int kShared = 3;
+  const uint32_t runs = runsOf(words, found);
+  const unsigned lane = threadIdx.x % kWarp;
+  for (uint32_t first = static_cast<uint32_t>(indexInGrid()) - lane; first < runs;
+       first += threadsOfGrid()) {
+    const uint32_t i = first + lane;
+    uint32_t component = ~0u;
+    RunSums own{0, INT32_MAX, 0, 0};
+    if (i < runs) {
+      ComponentRun& run = found.runs[i];
+      component = run.component = found.numbers[found.parents[i]];
+      own = {static_cast<uint32_t>(run.end - run.begin), run.begin, run.end, run.y + 1};
+    }
+    unsigned left = __ballot_sync(kFullWarp, i < runs);
+    for (int turn = 0; turn < kShared && left != 0; ++turn) {
+      const uint32_t shared = __shfl_sync(kFullWarp, component, lowestBit(left));
+      const bool isShared = component == shared;
+      const RunSums sums{
+          sumOfWarp(isShared ? own.areaPx : 0), leastOfWarp(isShared ? own.left : INT32_MAX),
+          -leastOfWarp(isShared ? -own.right : 0), -leastOfWarp(isShared ? -own.bottom : 0)};
+      if (lane == 0) addTo(found.list[shared], sums);
+      left &= ~__ballot_sync(kFullWarp, isShared);
+    }
+    if ((left >> lane & 1) != 0) addTo(found.list[component], own);
+  }
 }
 
 __global__ void closeBoxes(Size words, ComponentsView found) {
@@ -143,12 +200,15 @@ void findComponents(const BitView& mask, bool value, Connectivity connectivity,
   };
   start(over("countRuns", 12), stream, countRuns, wanted, found.firstRun);
   scan(found.firstRun, count, found.firstRun, found.scratch, stream);
-  start(over("listRuns", 12), stream, listRuns, wanted, found);
-  start(over("joinRows", 12), stream, joinRows, wanted, reach, found);
+  start(over("listRuns", 12), stream, listRuns, wanted, reach, found);
+  const auto overRuns = [&](const char* name, double bytesOfWord) {
+    return launchInTurns(name, count, {bytesOfWord * count, 4.0 * count});
+  };
+  start(overRuns("joinRows", 12), stream, joinRows, wanted, reach, found);
   start(over("flatten", 8), stream, flatten, words, found);
   scan(found.firstRoot, count, found.firstRoot, found.scratch, stream);
   start(over("numberComponents", 8), stream, numberComponents, words, mask.size.width, found);
-  start(over("sumComponents", 4), stream, sumComponents, words, found);
+  start(overRuns("sumComponents", 4), stream, sumComponents, words, found);
   start(over("closeBoxes", 4), stream, closeBoxes, words, found);
 }
 

@@ -15,12 +15,25 @@ __device__ inline uint32_t rootOf(const uint32_t* parents, uint32_t node) {
   return node;
 }
 
-/// Parents only become less, so one that was read too early is still one of the ancestors; who
-/// loses a race goes on with what the winner wrote.
+/// The same, and makes the way to it half as long. A parent may be written that has got a lesser
+/// one meanwhile: it is an ancestor still, and who gave the lesser one joins both.
+__device__ inline uint32_t shortenToRoot(uint32_t* parents, uint32_t node) {
+  for (uint32_t parent = parents[node]; parent != node;) {
+    const uint32_t next = parents[parent];
+    if (next == parent) return parent;
+    parents[node] = next;
+    node = next;
+    parent = parents[node];
+  }
+  return node;
+}
+
+/// Parents are less than what they are of, so one that was read too early is still one of the
+/// ancestors; who loses a race goes on with what the winner wrote.
 __device__ inline void join(uint32_t* parents, uint32_t a, uint32_t b) {
   for (;;) {
-    a = rootOf(parents, a);
-    b = rootOf(parents, b);
+    a = shortenToRoot(parents, a);
+    b = shortenToRoot(parents, b);
     if (a == b) return;
     const uint32_t less = isMutated(Mutant::WrongTieBreak) ? std::max(a, b) : std::min(a, b);
     const uint32_t more = a ^ b ^ less;

@@ -2,6 +2,7 @@
 #include "kernels/absorber.hpp"
 #include "kernels/region_division.hpp"
 #include "kernels/start.hpp"
+#include "kernels/threads.hpp"
 
 namespace rg::gpu::segmentation {
 namespace {
@@ -68,7 +69,7 @@ __global__ void __launch_bounds__(kThreads, 1)
 }
 
 __global__ void clearRegions(const uint32_t* components, AbsorptionView view) {
-  const uint32_t count = *components, stride = gridDim.x * blockDim.x;
+  const uint32_t count = *components, stride = threadsOfGrid();
   for (uint32_t i = blockIdx.x * blockDim.x + threadIdx.x; i < count; i += stride)
     view.regions[i] = {};
   if (blockIdx.x == 0 && threadIdx.x == 0) *view.count = count;
@@ -97,7 +98,7 @@ __global__ void sumCells(const __grid_constant__ DividedCells cells, const uint3
 /// Each part has the mean colour of its label's region.
 __global__ void takeColours(const AbsorbedRegion* labelled, ImageView<const uint16_t> ids,
                             GroupsView groups, AbsorptionView view) {
-  const uint32_t count = groups.numbers[ids.size.area()], stride = gridDim.x * blockDim.x;
+  const uint32_t count = groups.numbers[ids.size.area()], stride = threadsOfGrid();
   for (uint32_t i = blockIdx.x * blockDim.x + threadIdx.x; i < count; i += stride) {
     const uint32_t cell = groups.first[i], area = groups.areas[cell];
     const auto width = static_cast<uint32_t>(ids.size.width);

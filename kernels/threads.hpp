@@ -30,6 +30,10 @@ __device__ inline int indexInGrid() {
   return static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);
 }
 
+__device__ inline uint32_t threadsOfGrid() {
+  return gridDim.x * blockDim.x;
+}
+
 /// Calls visit(column) for each set bit of a word whose first column is `first`.
 template <class Visit>
 __device__ void forBits(uint64_t bits, int first, const Visit& visit) {

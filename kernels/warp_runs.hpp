@@ -16,6 +16,15 @@ __device__ T sumOfWarp(T value) {
   return value;
 }
 
+template <class T>
+__device__ T leastOfWarp(T value) {
+  for (int i = kWarp / 2; i > 0; i /= 2) {
+    const T other = __shfl_xor_sync(kFullWarp, value, i);
+    value = other < value ? other : value;
+  }
+  return value;
+}
+
 /// Neighbouring lanes of one key.
 struct LaneRun {
   int before;   ///< Lanes of it before this one.
