@@ -5,6 +5,7 @@
 #include "kernels/ghosts.hpp"
 #include "kernels/model_pixels.hpp"
 #include "kernels/start.hpp"
+#include "kernels/warp_runs.hpp"
 #include "kernels/word_runs.hpp"
 
 namespace rg::gpu::background {
@@ -98,38 +99,43 @@ __device__ void addAcross(const ContourPlanes& planes, Point p, Point step, Cont
   ++sums.readPixels;
 }
 
-__device__ void addTo(int64_t& sum, int64_t value) {
-  if (value != 0)
-    atomicAdd(reinterpret_cast<unsigned long long*>(&sum), static_cast<unsigned long long>(value));
-}
-
+/// A warp for each word, as a side reads much of the model.
 __global__ void readContours(const __grid_constant__ ContourPlanes planes, ComponentsView parts,
                              ContourSums* contours) {
-  const WordOfThread word = wordOfThread(planes.still.words.size);
-  if (!word.isInside) return;
-  const Point at = word.at;
+  const Size words = planes.still.words.size;
+  const Point at = wordOfWarp();
+  if (at.y >= words.height) return;
   const auto still = [&](int x, int y) {
-    return boundsOf(planes.still.words.size).contains({x, y}) ? planes.still.words.at(x, y) : 0;
+    return boundsOf(words).contains({x, y}) ? planes.still.words.at(x, y) : 0;
   };
   constexpr int kLast = kWordColumns - 1;
   const uint64_t here = still(at.x, at.y);
-  const uint64_t beside[] = {here << 1 | still(at.x - 1, at.y) >> kLast,
-                             here >> 1 | still(at.x + 1, at.y) << kLast, still(at.x, at.y - 1),
-                             still(at.x, at.y + 1)};
-  forRunsIn(parts, word, [&](uint32_t run, uint64_t bits) {
+  if (here == 0) return;
+  const uint64_t left = here << 1 | still(at.x - 1, at.y) >> kLast;
+  const uint64_t right = here >> 1 | still(at.x + 1, at.y) << kLast;
+  const uint64_t above = still(at.x, at.y - 1), below = still(at.x, at.y + 1);
+  const auto lane = static_cast<int>(threadIdx.x);
+  forRunsIn(parts, {at.y * words.width + at.x, at, true}, [&](uint32_t run, uint64_t bits) {
     ContourSums own;
-    const auto addSide = [&](uint64_t open, Point step) {
-      forBits(open, at.x * kWordColumns, [&](int x) { addAcross(planes, {x, at.y}, step, own); });
+    const auto addSide = [&](uint64_t open, int column, Point step) {
+      if ((open >> column & 1) != 0)
+        addAcross(planes, {at.x * kWordColumns + column, at.y}, step, own);
     };
-    addSide(bits & ~beside[0], {-1, 0});
-    addSide(bits & ~beside[1], {1, 0});
-    addSide(bits & ~beside[2], {0, -1});
-    addSide(bits & ~beside[3], {0, 1});
+    for (int column = lane; column < kWordColumns; column += kWarp) {
+      addSide(bits & ~left, column, {-1, 0});
+      addSide(bits & ~right, column, {1, 0});
+      addSide(bits & ~above, column, {0, -1});
+      addSide(bits & ~below, column, {0, 1});
+    }
     ContourSums& all = contours[parts.runs[run].component];
-    addTo(all.inPicture, own.inPicture);
-    addTo(all.inModel, own.inModel);
-    addTo(all.readPixels, own.readPixels);
-    addTo(all.allPixels, own.allPixels);
+    const auto addToAll = [&](int64_t& sum, int64_t value) {
+      value = sumOfWarp(value);
+      if (lane == 0 && value != 0) addSum(sum, static_cast<uint64_t>(value));
+    };
+    addToAll(all.inPicture, own.inPicture);
+    addToAll(all.inModel, own.inModel);
+    addToAll(all.readPixels, own.readPixels);
+    addToAll(all.allPixels, own.allPixels);
   });
 }
 
@@ -171,9 +177,10 @@ void findGhosts(const Planes& picture, const ModelView& model, const BitView& fo
   findComponents(scratch.still, true, Connectivity::Eight, scratch.parts, stream);
   start(overWords("forgetParts", foreground, 4), stream, forgetParts<ContourSums>, words,
         scratch.parts, scratch.contours);
-  start(overWords("readOutlines", foreground, 32), stream, readContours,
-        ContourPlanes{picture, model, foreground, scratch.still, still.fresh}, scratch.parts,
-        scratch.contours);
+  const double outlineWords = static_cast<double>(words.area());
+  start(launchOverWords("readOutlines", foreground.size, {32 * outlineWords, 8 * outlineWords}),
+        stream, readContours, ContourPlanes{picture, model, foreground, scratch.still, still.fresh},
+        scratch.parts, scratch.contours);
   start(overWords("markGhosts", foreground, 12), stream, markParts<IsGhostly>, ghosts,
         IsGhostly{scratch.contours}, scratch.parts);
   paint(ghosts, rg::background::kFreshFrames, still.fresh, stream);
