@@ -141,7 +141,7 @@ void ObjectStage::mergeRegions(const Input& in, const Params& params, int64_t st
   expectLabels(graph, stepNs, objects);
   if (params.method == Method::Literal) return mergeByEnergy(motion, weights, objects);
   if (isStill) {
-    followTrends(motion, trends_, trend_, params.numbers.layers);
+    followTrends(motion, *context_.cpu, trends_, trend_, params.numbers.layers);
   } else {
     trends_.reset();
     trend_.graph.reset();
@@ -376,7 +376,7 @@ Result<std::shared_ptr<const Objects>> ObjectStage::process(Input in, const Para
   }
   mergeRegions(in, params, stepNs, *objects);
   gatherEvidence(*graph, params.numbers, *objects);
-  tracker_.update(evidence_, groups_, stepNs, tracking);
+  tracker_.update(evidence_, groups_, stepNs, tracking, *context_.cpu);
   givePixels(*graph, *objects);
   describe(*graph, time.isKnown, *objects);
   nameRegions(*graph, *objects);

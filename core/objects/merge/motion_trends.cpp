@@ -59,8 +59,8 @@ void add(const motion::RegionMotion& now, const Numbers::Layers& numbers, Motion
 
 }  // namespace
 
-void followTrends(const motion::Motion& motion, MotionTrends& memory, motion::Motion& trends,
-                  const Numbers::Layers& numbers) {
+void followTrends(const motion::Motion& motion, const Executor& executor, MotionTrends& memory,
+                  motion::Motion& trends, const Numbers::Layers& numbers) {
   const graph::Graph& graph = *motion.graph;
   const size_t count = graph.regions.size();
   std::swap(memory.ofRegion, memory.before);
@@ -71,7 +71,8 @@ void followTrends(const motion::Motion& motion, MotionTrends& memory, motion::Mo
   trends.regions.resize(count);
   const bool hasBefore =
       motion.status != Status::Skipped && memory.labels && memory.labels->size == graph.size;
-  for (size_t r = 0; r < count; ++r) {
+  executor.forEach(static_cast<int>(count), [&](int index) {
+    const auto r = static_cast<size_t>(index);
     const motion::RegionMotion& now = motion.regions[r];
     MotionTrend& trend = memory.ofRegion[r];
     if (hasBefore) trend = trendBefore(graph.runs.of(r), now, memory, numbers.trendAlike.whole());
@@ -79,7 +80,7 @@ void followTrends(const motion::Motion& motion, MotionTrends& memory, motion::Mo
     const auto reliability =
         motion::kFullReliability * trend.weight / (trend.weight + kFrameWeight);
     trends.regions[r] = {trend.dx, trend.dy, now.sad, static_cast<uint16_t>(reliability)};
-  }
+  });
   memory.labels = graph.labels;
 }
 

@@ -9,6 +9,7 @@
 // Determinism: integer sums over pixels.
 #pragma once
 
+#include "core/base/memory/executor.hpp"
 #include "core/motion/motion.hpp"
 #include "core/objects/numbers.hpp"
 
@@ -36,7 +37,7 @@ struct MotionTrends {
 
 /// Goes on to the next frame and tells its trends as a motion: the vectors are trends, and their
 /// reliability is half of kFullReliability after one frame that told all.
-void followTrends(const motion::Motion& motion, MotionTrends& memory, motion::Motion& trends,
-                  const Numbers::Layers& numbers = {});
+void followTrends(const motion::Motion& motion, const Executor& executor, MotionTrends& memory,
+                  motion::Motion& trends, const Numbers::Layers& numbers = {});
 
 }  // namespace rg::objects

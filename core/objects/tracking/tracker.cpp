@@ -47,7 +47,7 @@ void Tracker::begin(const GroupGrid& e, int64_t stepNs) {
 }
 
 void Tracker::update(const GroupGrid& evidence, std::span<const Group> groups, int64_t stepNs,
-                     const TrackerParams& params) {
+                     const TrackerParams& params, const Executor& executor) {
   state_.numbers = params.numbers;
   state_.appearance = params.appearance;
   life_.events().clear();
@@ -55,7 +55,7 @@ void Tracker::update(const GroupGrid& evidence, std::span<const Group> groups, i
   fit_.find(evidence, stepNs, state_);
   state_.blobs.find(evidence, !state_.scale.isUniform());
   state_.blobs.findOwners(evidence, state_.tasks, state_.owner, state_.tracks.size());
-  portraits_.place(evidence, stepNs, state_);
+  portraits_.place(evidence, stepNs, executor, state_);
   owners_.shareBlobs(evidence, state_);
   owners_.giveGroups(evidence, groups, state_);
   countCells(evidence, state_);

@@ -43,7 +43,7 @@ class Tracker {
   /// A frame that shows nothing: tracks move on as they are expected to.
   void predict(int64_t stepNs, const TrackerParams& params);
   void update(const GroupGrid& evidence, std::span<const Group> groups, int64_t stepNs,
-              const TrackerParams& params);
+              const TrackerParams& params, const Executor& executor);
 
   [[nodiscard]] const TrackerState& state() const { return state_; }
   [[nodiscard]] const std::vector<Track>& tracks() const { return state_.tracks; }

@@ -74,20 +74,27 @@ void TrackPortraits::list(const GroupGrid& e, TrackerState& state) {
   });
 }
 
-void TrackPortraits::place(const GroupGrid& e, int64_t stepNs, TrackerState& state) {
+void TrackPortraits::place(const GroupGrid& e, int64_t stepNs, const Executor& executor,
+                           TrackerState& state) {
   list(e, state);
   if (tasks_.empty()) return;
   const PortraitScene scene{e, *e.picture, taken_};
-  for (Task& task : tasks_) {
+  scratch_.resize(static_cast<size_t>(executor.threads()));
+  const auto find = [&](Task& task, size_t thread) {
+    task.match = findPortrait(state.tracks[task.track].portrait, scene, task.search,
+                              scratch_[thread], state.numbers.likeness);
+  };
+  executor.forEach(static_cast<int>(tasks_.size()), [&](int index, int thread) {
+    Task& task = tasks_[static_cast<size_t>(index)];
     task.search = searchOf(state, task.track, stepNs);
-    task.match = find(scene, task, state);
-  }
+    find(task, static_cast<size_t>(thread));
+  });
   std::sort(tasks_.begin(), tasks_.end(), [&](const Task& a, const Task& b) {
     return std::tuple(b.match.value(), -state.tracks[a.track].foot, a.track) <
            std::tuple(a.match.value(), -state.tracks[b.track].foot, b.track);
   });
   for (size_t i = 0; i < tasks_.size(); ++i) {
-    if (isDisturbed(i, e, state)) tasks_[i].match = find(scene, tasks_[i], state);
+    if (isDisturbed(i, e, state)) find(tasks_[i], 0);
     giveMatch(scene, tasks_[i], state);
   }
   for (const Task& task : tasks_) {
@@ -99,12 +106,6 @@ void TrackPortraits::place(const GroupGrid& e, int64_t stepNs, TrackerState& sta
                      });
   }
   state.blobs.findOwners(e, state.tasks, state.owner, state.tracks.size());
-}
-
-PortraitMatch TrackPortraits::find(const PortraitScene& scene, const Task& task,
-                                   const TrackerState& state) {
-  return findPortrait(state.tracks[task.track].portrait, scene, task.search, scratch_,
-                      state.numbers.likeness);
 }
 
 /// Whether one that was given its match before has taken cells where this one was looked for.

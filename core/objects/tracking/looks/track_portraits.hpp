@@ -2,6 +2,7 @@
 // Where tracks are that share a blob or of which only a part is seen: by their portraits.
 #pragma once
 
+#include "core/base/memory/executor.hpp"
 #include "core/objects/tracking/tracker_state.hpp"
 
 #include <cstdint>
@@ -11,9 +12,10 @@ namespace rg::objects {
 
 class TrackPortraits {
  public:
-  /// Who is seen best stands in front and takes its place first; the others are looked for in what
-  /// it leaves.
-  void place(const GroupGrid& evidence, int64_t stepNs, TrackerState& state);
+  /// All are looked for; who is seen best stands in front and takes its place first, and whom that
+  /// disturbs is looked for again in what it leaves.
+  void place(const GroupGrid& evidence, int64_t stepNs, const Executor& executor,
+             TrackerState& state);
 
  private:
   /// A track that is looked for.
@@ -24,8 +26,6 @@ class TrackPortraits {
     Point corner;  ///< Where it was found, in pixels.
   };
   void list(const GroupGrid& evidence, TrackerState& state);
-  [[nodiscard]] PortraitMatch find(const PortraitScene& scene, const Task& task,
-                                   const TrackerState& state);
   [[nodiscard]] bool isDisturbed(size_t index, const GroupGrid& evidence,
                                  const TrackerState& state) const;
   void giveMatch(const PortraitScene& scene, Task& task, TrackerState& state);
@@ -33,7 +33,7 @@ class TrackPortraits {
   std::vector<Task> tasks_;
   std::vector<uint8_t> taken_;  ///< Of each cell.
   std::vector<uint8_t> isSearched_;
-  PortraitScratch scratch_;
+  std::vector<PortraitScratch> scratch_;  ///< Of each thread.
 };
 
 /// Of a track that was seen whole.

@@ -39,12 +39,13 @@ class Trends {
     for (const Shown& s : shown)
       motion.regions.push_back(
           {s.step.x * motion::kMotionUnit, s.step.y * motion::kMotionUnit, 0, s.reliability});
-    objects::followTrends(motion, memory_, result_);
+    objects::followTrends(motion, executor_, memory_, result_);
     return result_;
   }
   void reset() { memory_.reset(); }
 
  private:
+  Executor executor_{1};
   objects::MotionTrends memory_;
   motion::Motion result_;
 };
