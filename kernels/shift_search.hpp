@@ -12,13 +12,14 @@
 
 namespace rg::gpu::motion {
 
-/// rg::motion::PaddedLuma: rows of width + 2 · reach + PaddedLuma::kSlack columns or more.
+/// rg::motion::PaddedLuma: rows of width + 2 · reach + PaddedLuma::kSlack columns or more, which
+/// begin on a boundary of four bytes.
 struct PaddedView {
   Size size;
   int reach = 0;
   ImageView<uint8_t> rows;
 };
-/// rg::motion::BoxSums of it, as many columns and rows.
+/// rg::motion::BoxSums of it, as many columns and rows, likewise.
 struct BoxesView {
   ImageView<uint16_t> rows;
 };
