@@ -139,12 +139,16 @@ run_threads() {
   export TSAN_OPTIONS=halt_on_error=1:history_size=4:second_deadlock_stack=1
   TSAN_OPTIONS+=:suppressions=$root/tests/tsan.supp:print_suppressions=0
   export GST_REGISTRY=$tsan_build/gst.reg
+  if "${stress[@]}" --races 100 >/dev/null 2>&1; then
+    echo 'threads: a race of an executor was not found' >&2
+    return 1
+  fi
   if ((is_short)); then
     "${stress[@]}" --pushes 1000
     return
   fi
-  "${stress[@]}" --pushes 333334
-  "${stress[@]}" --pushes 3334 --size 640x480
+  "${stress[@]}" --pushes 250000
+  "${stress[@]}" --pushes 2500 --size 640x480
 }
 
 run_allocations() {

@@ -3,6 +3,8 @@
 // latency, in an order that a printed seed decides. Run under ThreadSanitizer by tests/campaign.sh.
 //
 // usage: stress [--pushes N] [--size WxH] [--seed S]
+//        stress --races N    only N tasks of an executor that race, which ThreadSanitizer must tell
+#include "core/base/memory/executor.hpp"
 #include "core/base/pixel.hpp"
 #include "tests/fuzz/moving_scene.hpp"
 #include "tests/fuzz/set_property.hpp"
@@ -22,7 +24,10 @@ namespace {
 using testing::Caps;
 using testing::Chain;
 
+/// Threads of a frame, and threads that hand frames on.
 constexpr const char* kChains[] = {
+    "bgremove threads=2 ! hsvsegment threads=2 ! srg threads=2 ! prmmotion threads=2 ! "
+    "mrfmerge threads=2 ! regionwrite location=/dev/null",
     "bgremove threads=1 ! hsvsegment threads=1 ! srg threads=1 ! prmmotion threads=1 ! "
     "mrfmerge threads=1 ! regionwrite location=/dev/null",
     "hsvsegment threads=1 ! srg threads=1 ! prmmotion threads=1 ! mrfmerge threads=1 ! "
@@ -158,6 +163,16 @@ void run(const char* line, const Options& options) {
   if (out + refused != static_cast<uint64_t>(options.pushes) || untold > 0) std::exit(1);
 }
 
+/// Each writes what the others write, after a while in which another thread can join.
+void race(int tasks) {
+  int64_t sum = 0;
+  Executor(2).forEach(tasks, [&](int i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    sum += i;
+  });
+  std::printf("%d tasks raced: %" PRId64 "\n", tasks, sum);
+}
+
 }  // namespace
 }  // namespace rg::stress
 
@@ -165,6 +180,10 @@ int main(int argc, char** argv) {
   using namespace rg;
   stress::Options options;
   for (int i = 1; i + 1 < argc; i += 2) {
+    if (std::strcmp(argv[i], "--races") == 0) {
+      stress::race(std::atoi(argv[i + 1]));
+      return 0;
+    }
     if (std::strcmp(argv[i], "--pushes") == 0) options.pushes = std::atoi(argv[i + 1]);
     if (std::strcmp(argv[i], "--seed") == 0)
       options.seed = static_cast<uint32_t>(std::strtoul(argv[i + 1], nullptr, 10));
