@@ -21,6 +21,10 @@ struct Size {
   friend constexpr bool operator==(const Size&, const Size&) = default;
 };
 
+[[nodiscard]] constexpr Size doubled(Size size) {
+  return {2 * size.width, 2 * size.height};
+}
+
 /// Half-open rectangle: columns x … x + width − 1, rows y … y + height − 1.
 struct Box {
   int x = 0;

@@ -2,6 +2,7 @@
 #include "core/base/picture.hpp"
 
 #include "core/simd/base/conversion.hpp"
+#include "core/simd/base/double_rows.hpp"
 #include "core/simd/base/picture_rows.hpp"
 
 #include <algorithm>
@@ -54,6 +55,28 @@ void loadYuvRow(const Frame& frame, const YuvOrder& order, int y, const YuvToRgb
     simd::loadYuvRow({luma.first, cb.first, cr.first, cb.stepBytes}, frame.size().width, k, to);
   else
     loadSpacedRow(luma, cb, cr, frame.size().width, k, to);
+}
+
+/// Row y of a plane that becomes twice as large; beyond its border it goes on as at the border.
+void doubleRow(ImageView<const uint8_t> from, int y, uint8_t* to) {
+  constexpr int kBeside = 2;  // Columns that are read at either side.
+  const Size size = from.size;
+  const auto row = [&](int at) { return from.row(std::clamp(at, 0, size.height - 1)); };
+  const int here = y / 2, way = y % 2 == 0 ? -1 : 1;
+  const simd::QuarterRows rows{row(here), row(here + way), row(here - way), row(here + 2 * way)};
+  std::array<int16_t, kBlock + 2 * kBeside> room;
+  for (int begin = 0; begin < size.width; begin += kBlock) {
+    const int end = std::min(begin + kBlock, size.width);
+    const int first = std::max(begin - kBeside, 0), last = std::min(end + kBeside, size.width);
+    int16_t* sums = room.data() + (first - begin + kBeside);
+    simd::sumQuarter(
+        {rows.here + first, rows.next + first, rows.behind + first, rows.afterNext + first},
+        last - first, sums);
+    std::fill(room.data(), sums, *sums);
+    int16_t* behind = sums + (last - first);
+    std::fill(behind, room.data() + (end - begin + 2 * kBeside), behind[-1]);
+    simd::doubleSums(room.data() + kBeside, end - begin, to + 2 * ptrdiff_t{begin});
+  }
 }
 
 }  // namespace
@@ -112,6 +135,24 @@ void Picture::load(const Frame& frame, const Executor& executor) {
   resize(frame.size(), frame.layout().format == PixelFormat::Gray8);
   for (Image<uint8_t>* plane : {&red_, &green_, &blue_, &luma_}) plane->writeOnHost();
   loadPlanes(frame, executor, {red_, green_, blue_, luma_});
+}
+
+void Picture::loadDoubled(const Picture& from, const Executor& executor) {
+  const Size size = doubled(from.size());
+  resize(size, from.isGrey_);
+  const auto planesOf = [](auto& picture) {
+    return std::array{&picture.luma_, &picture.red_, &picture.green_, &picture.blue_};
+  };
+  const auto given = planesOf(from);
+  const auto made = planesOf(*this);
+  for (size_t i = 0; i < (isGrey_ ? 1 : made.size()); ++i) {
+    made[i]->writeOnHost();
+    const ImageView<const uint8_t> plane = given[i]->view();
+    const ImageView<uint8_t> to = made[i]->view();
+    executor.forRows(size.height, [&](int first, int last) {
+      for (int y = first; y < last; ++y) doubleRow(plane, y, to.row(y));
+    });
+  }
 }
 
 Image<uint8_t>& Picture::writeGrey(Size size) {

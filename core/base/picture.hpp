@@ -48,6 +48,9 @@ class Picture {
 
   /// Takes the frame's size and pixels (loadPlanes).
   void load(const Frame& frame, const Executor& executor);
+  /// Takes those of another picture with twice as many columns and rows: what lies a quarter of a
+  /// pixel off each centre, by cubic convolution. The same bits for any number of threads.
+  void loadDoubled(const Picture& from, const Executor& executor);
   /// A grey picture of which all pixels will be written here.
   [[nodiscard]] Image<uint8_t>& writeGrey(Size size);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// A smaller frame of the same picture, for analysis at a lower resolution than the camera's.
+// At which size a frame is looked at, and a smaller frame of the same picture, for analysis at a
+// lower resolution than the camera's.
 //
 // Determinism: rounded means of whole samples, each of a box of its own; the same bits for any
 // number of threads.
@@ -15,6 +16,15 @@
 #include <vector>
 
 namespace rg {
+
+/// The size at which a frame is looked at where nothing is asked for: small ones, of 96 to 299
+/// rows, twice as large (Picture::loadDoubled), unless they are wider than four times their height;
+/// all others as they are. In fewer rows than 96 there is nothing to be followed, and from 300 on
+/// nothing is gained.
+[[nodiscard]] constexpr Size usualSize(Size frame) {
+  const bool isSmall = frame.height >= 96 && frame.height < 300;
+  return isSmall && frame.width <= 4 * frame.height ? doubled(frame) : frame;
+}
 
 /// The size of a frame that is to be looked at with so many rows: of the same shape, never larger
 /// than the frame, 1/128 of its height at least. rows = 0: as it is.

@@ -39,11 +39,17 @@ void clearPadding(GstVideoFrame* to) {
 template <class Value, class Shade>
 void paint(const ResultPlane<Value>& plane, GstVideoFrame* to, Shade shade) {
   if (plane.pixelSize().isEmpty()) return paintBlack(to);
-  std::vector<Value> scratch;
+  std::vector<Value> scratch, lower, half;
   const FrameMap map{plane.pixelSize(), {GST_VIDEO_FRAME_WIDTH(to), GST_VIDEO_FRAME_HEIGHT(to)}};
-  const bool isScaled = map.from != map.to;
+  const bool isHalved = map.from == doubled(map.to);
+  const bool isScaled = !isHalved && map.from != map.to;
+  if (isHalved) half.resize(static_cast<size_t>(map.to.width));
   for (int y = 0; y < map.to.height; ++y) {
-    const Value* values = plane.unpackedRow(map.sourceY(y), scratch);
+    const Value* values = plane.unpackedRow(isHalved ? 2 * y : map.sourceY(y), scratch);
+    if (isHalved) {
+      halveRows(values, plane.unpackedRow(2 * y + 1, lower), map.to.width, half.data());
+      values = half.data();
+    }
     uint8_t* pixels = rowOf(to, y);
     for (int x = 0; x < map.to.width; ++x) {
       const auto pixel = shade(values[isScaled ? map.sourceX(x) : x]);

@@ -17,9 +17,11 @@
 
 namespace rg {
 
+inline constexpr int kUsualHeight = -1;  ///< Of the property: as usualSize() says.
+
 struct PixelSettings : StageSettings {
   guint64 badBuffers = 0;
-  int analysisHeight = 0;
+  int analysisHeight = kUsualHeight;
 };
 
 template <class Settings>
@@ -36,9 +38,11 @@ constexpr Property analysisHeightProperty() {
       "analysis-height",
       "Rows of the picture that the stages look at; frames with more are scaled down for them, in "
       "their shape, which makes cameras of many pixels cheap. All that is told of objects is still "
-      "in pixels of the frame; properties in pixels, as max-shift, are of the smaller picture. "
-      "0 = the whole frame. At least 1/128 of the frame's",
-      0, 16384, Mutable::Ready);
+      "in pixels of the frame; properties in pixels, as max-shift, are of that picture. At least "
+      "1/128 of the frame's. 0 = the frame as it is. -1 = the same, but frames of 96 to 299 rows "
+      "are "
+      "looked at twice as large, where things are found that are too small otherwise",
+      kUsualHeight, 16384, Mutable::Ready);
 }
 
 /// A stage element that reads frames itself.
@@ -66,7 +70,8 @@ class PixelFilter : public StageOwner<Settings, Stage> {
 
  protected:
   [[nodiscard]] Size analysedSize(const FilterFrame& frame) const final {
-    return reducedSize(sizeOf(frame), analysisHeight_);
+    const Size size = sizeOf(frame);
+    return analysisHeight_ == kUsualHeight ? usualSize(size) : reducedSize(size, analysisHeight_);
   }
   /// Maps, checks and converts a frame; counts those whose memory can't be believed.
   [[nodiscard]] Result<std::shared_ptr<const Picture>> load(const FilterFrame& frame) {
@@ -82,6 +87,9 @@ class PixelFilter : public StageOwner<Settings, Stage> {
     const Size size = this->analysedSize(frame);
     if (size == mapped.frame()->size()) {
       picture->load(*mapped.frame(), this->executor());
+    } else if (size == doubled(mapped.frame()->size())) {
+      small_.load(*mapped.frame(), this->executor());
+      picture->loadDoubled(small_, this->executor());
     } else {
       reduced_.load(*mapped.frame(), size, this->executor());
       picture->load(reduced_.view(), this->executor());
@@ -117,10 +125,11 @@ class PixelFilter : public StageOwner<Settings, Stage> {
           "for all lines.");
   }
 
-  int analysisHeight_ = 0;          ///< As at the start.
-  int deviceId_ = 0;                ///< The same.
-  bool hasToldInterlaced_ = false;  ///< Since the start.
+  int analysisHeight_ = kUsualHeight;  ///< As at the start.
+  int deviceId_ = 0;                   ///< The same.
+  bool hasToldInterlaced_ = false;     ///< Since the start.
   ReducedFrame reduced_;
+  Picture small_;  ///< That is to be doubled.
   Pool<Picture> pool_;
 };
 

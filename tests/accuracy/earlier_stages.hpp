@@ -5,7 +5,9 @@
 
 #include "core/background/background.hpp"
 #include "core/base/memory/pool.hpp"
+#include "core/base/reduced_frame.hpp"
 #include "core/motion/motion.hpp"
+#include "core/objects/result_packer.hpp"
 #include "tests/benchmarks/scene.hpp"
 #include "tests/support/value_of.hpp"
 
@@ -29,7 +31,10 @@ class EarlierStages {
   [[nodiscard]] std::shared_ptr<const motion::Motion> process(const bench::RawFrame& raw) {
     time_ = {std::llround(1e9 * static_cast<double>(frames_++) / fps_), true};
     const auto picture = pictures_.take();
-    picture->load(raw.view(), *context_.cpu);
+    frame_ = raw.layout.size;
+    const bool isDoubled = usualSize(frame_) != frame_;
+    (isDoubled ? small_ : *picture).load(raw.view(), *context_.cpu);
+    if (isDoubled) picture->loadDoubled(small_, *context_.cpu);
     std::shared_ptr<const background::Foreground> foreground;
     segmentation::Params segmentation;
     if (background_) {
@@ -40,12 +45,22 @@ class EarlierStages {
     const auto graph = valueOf(graph_->process(labels, {}));
     return valueOf(motion_->process(graph, {}));
   }
+  /// What was found in the last frame, in pixels of the frame.
+  [[nodiscard]] std::shared_ptr<const objects::Objects> shown(
+      std::shared_ptr<const objects::Objects> found) {
+    if (found->size == frame_) return found;
+    packer_.endFrame();
+    packer_.showIn(frame_);
+    return packer_.pack(found);
+  }
   /// Of the last frame.
   [[nodiscard]] FrameTime time() const { return time_; }
 
  private:
   Context context_;
   double fps_;
+  Size frame_;
+  Picture small_;  ///< That is to be doubled.
   Pool<Picture> pictures_;
   std::unique_ptr<background::Stage> background_;
   std::unique_ptr<segmentation::Stage> segmentation_;
@@ -53,6 +68,7 @@ class EarlierStages {
   std::unique_ptr<motion::Stage> motion_;
   int64_t frames_ = 0;
   FrameTime time_;
+  objects::ResultPacker packer_;
 };
 
 }  // namespace rg::truth

@@ -69,7 +69,7 @@ class Pipeline {
 
   std::shared_ptr<const objects::Objects> process(const bench::RawFrame& raw) {
     const auto motion = earlier_.process(raw);
-    return valueOf(objects_->process(motion, {}, earlier_.time()));
+    return earlier_.shown(valueOf(objects_->process(motion, {}, earlier_.time())));
   }
 
  private:
@@ -98,7 +98,8 @@ void outline(bench::RawFrame& frame, const Box& box, const std::array<uint8_t, 3
 /// A .ppm of the frame. Its buffer is drawn upon.
 void writePicture(const std::string& path, bench::RawFrame& frame, const Scene& scene,
                   const objects::Objects& objects) {
-  const Image<uint16_t>& slots = objects.slots;
+  Image<uint16_t> room;
+  const ImageView<const uint16_t> slots = objects.slots.unpacked(room);
   for (int y = 0; y < slots.height(); ++y)
     for (int x = 0; x < slots.width(); ++x)
       if (slots.at(x, y) != 0) {

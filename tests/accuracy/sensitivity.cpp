@@ -137,8 +137,9 @@ int playScenes(bool isPan, uint32_t first, uint32_t last, const Sampling& sampli
     while (painter.next(frame, scene)) {
       const auto motion = earlier.process(frame);
       for (Trial& trial : trials)
-        trial.verdict.add(scene,
-                          *valueOf(trial.stage->process(motion, trial.params, earlier.time())));
+        trial.verdict.add(
+            scene,
+            *earlier.shown(valueOf(trial.stage->process(motion, trial.params, earlier.time()))));
     }
     for (const Trial& trial : trials) tell(trial);
   }

@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Stages that look at a smaller picture, and results that are of the whole frame all the same.
+#include "core/base/picture.hpp"
 #include "tests/support/busy_scene.hpp"
 #include "tests/support/results.hpp"
+#include "tests/support/value_of.hpp"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
 
 namespace rg {
 namespace {
@@ -153,6 +159,75 @@ TEST(AnalysisHeightTest, KeepsBoxesWithinOddFrames) {
     }
     EXPECT_GT(seen, 5) << caps.text();
   }
+}
+
+/// The busy scene in as many pixels as the stages make of a small frame.
+BufferPtr asDoubled(const Caps& small, int index) {
+  const BufferPtr frame = busyFrame(small, index);
+  const auto bytes = testing::bytesOf(frame.get());
+  const Size size{small.width, small.height};
+  const std::array memory{PlaneMemory{bytes.data(), bytes.size(), size.width}};
+  Picture picture, large;
+  picture.load(
+      valueOf(Frame::make({PixelFormat::Gray8, size, YuvMatrix::Bt601, YuvRange::Limited}, memory)),
+      Executor(1));
+  large.loadDoubled(picture, Executor(1));
+  return testing::paint({"GRAY8", 2 * small.width, 2 * small.height}, index,
+                        [&](int x, int y) { return large.luma().at(x, y); });
+}
+
+bool isHalf(const Box& small, const Box& large) {
+  return std::abs(2 * small.x - large.x) <= 1 && std::abs(2 * small.y - large.y) <= 1 &&
+         std::abs(2 * small.right() - large.right()) <= 1 &&
+         std::abs(2 * small.bottom() - large.bottom()) <= 1;
+}
+
+TEST_P(AnalysisHeight, LooksAtSmallFramesTwiceAsLargeAndTellsItInTheFrame) {
+  const Caps small{"GRAY8", 160, 120}, large{"GRAY8", 320, 240};
+  const std::string stages = GetParam();
+  std::string asItIs = stages;
+  for (const std::string name : {"bgremove", "hsvsegment", "regiontrack"})
+    if (const size_t at = asItIs.find(name); at != std::string::npos)
+      asItIs.insert(at + name.size(), " analysis-height=0");
+  Chain usual(stages, small), doubled(asItIs, large), plain(asItIs, small);
+  int seen = 0, others = 0;
+  for (int i = 0; i < 30; ++i) {
+    const BufferPtr a = usual.pass(busyFrame(small, i)), b = doubled.pass(asDoubled(small, i)),
+                    c = plain.pass(busyFrame(small, i));
+    ASSERT_EQ(a == nullptr, b == nullptr);
+    if (!a) continue;
+    const auto found = resultOn<objects::Objects>(a), expected = resultOn<objects::Objects>(b);
+    ASSERT_EQ(found->size, (Size{small.width, small.height}));
+    ASSERT_EQ(found->objects.size(), expected->objects.size());
+    for (size_t k = 0; k < found->objects.size(); ++k) {
+      EXPECT_EQ(found->objects[k].id, expected->objects[k].id);
+      EXPECT_TRUE(isHalf(found->objects[k].box, expected->objects[k].box)) << i << ' ' << k;
+    }
+    seen += testing::objectsOn(a.get());
+    others +=
+        testing::objectsOn(c.get()) != testing::objectsOn(a.get()) ||
+        resultOn<graph::Graph>(c)->regions.size() != resultOn<graph::Graph>(a)->regions.size();
+  }
+  EXPECT_GT(seen, 20);
+  EXPECT_GT(others, 5);  // Or nothing was doubled.
+}
+
+/// Before mrfmerge packs it, and behind it.
+TEST(AnalysisHeightTest, MasksOfSmallFramesAreOfTheFrame) {
+  const Caps caps{"GRAY8", 160, 120};
+  const std::string learn = "bgremove training-frames=2 ! ", show = "regionmask source=foreground";
+  Chain early(learn + show, caps);
+  Chain late(learn + "hsvsegment ! srg ! prmmotion ! mrfmerge ! " + show, caps);
+  int white = 0;
+  for (int i = 0; i < 20; ++i) {
+    const BufferPtr a = early.pass(busyFrame(caps, i)), b = late.pass(busyFrame(caps, i));
+    ASSERT_TRUE(a && b);
+    const auto bytes = testing::bytesOf(a.get());
+    ASSERT_EQ(bytes.size(), size_t{160} * 120);
+    EXPECT_EQ(bytes, testing::bytesOf(b.get()));
+    white += static_cast<int>(std::count(bytes.begin(), bytes.end(), 255));
+  }
+  EXPECT_GT(white, 1000);
 }
 
 TEST(AnalysisHeightTest, StaysAsItIsWhileRunning) {

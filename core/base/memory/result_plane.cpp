@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cassert>
 #include <span>
+#include <utility>
 
 namespace rg {
 namespace {
@@ -27,13 +28,23 @@ void PlanePacker::pack(const ResultPlane<T>& from, ResultPlane<T>& to, Size show
   assert(!from.isPacked() && std::max(from.width(), shown.width) <= UINT16_MAX);
   to.isPacked_ = true;
   to.size_ = from.size().isEmpty() ? from.size() : shown;
-  if (packRows(from.view(), to)) {
+  if (from.size() != doubled(to.size_)) return packView(from.view(), to);
+  auto& half = std::get<Image<T>>(halves_);
+  half.resize(to.size_);
+  for (int y = 0; y < half.height(); ++y)
+    halveRows(from.row(2 * y), from.row(2 * y + 1), half.width(), half.row(y));
+  packView(std::as_const(half).view(), to);
+}
+
+template <class T>
+void PlanePacker::packView(ImageView<const T> from, ResultPlane<T>& to) {
+  if (packRows(from, to)) {
     to.whole_ = {};
     giveBackSpare(to.begins_);
     giveBackSpare(to.values_);
     giveBackSpare(to.starts_);
   } else {
-    to.whole_.copyFrom(from.view());
+    to.whole_.copyFrom(from);
     to.starts_ = {};
     to.begins_ = {};
     to.values_ = {};

@@ -9,10 +9,22 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 namespace rg {
+
+/// Of each square of four pixels in two rows the second smallest, which is what three of them are:
+/// a plane of twice the size as readers are shown it. `count` squares.
+template <class T>
+void halveRows(const T* upper, const T* lower, int count, T* to) {
+  for (int x = 0; x < count; ++x) {
+    const auto [a, b] = std::minmax(upper[2 * x], upper[2 * x + 1]);
+    const auto [c, d] = std::minmax(lower[2 * x], lower[2 * x + 1]);
+    to[x] = std::min(std::max(a, c), std::min(b, d));
+  }
+}
 
 template <class T>
 class ResultPlane : public Image<T> {
@@ -91,16 +103,19 @@ class ResultPlane : public Image<T> {
 /// Fills packed planes. Its memory serves one frame after the other.
 class PlanePacker {
  public:
-  /// Shown at another size, each pixel is that of `from` that lies under its centre; what is empty
-  /// stays so. Columns are 16 bits wide: pictures are narrower than 65536. Throws std::bad_alloc;
-  /// `to` is to be filled anew then.
+  /// Shown at half the size, each pixel is as halveRows() says; at another one, it is that of
+  /// `from` that lies under its centre; what is empty stays so. Columns are 16 bits wide: pictures
+  /// are narrower than 65536. Throws std::bad_alloc; `to` is to be filled anew then.
   template <class T>
   void pack(const ResultPlane<T>& from, ResultPlane<T>& to, Size shown);
 
  private:
   template <class T>
+  void packView(ImageView<const T> from, ResultPlane<T>& to);
+  template <class T>
   bool packRows(ImageView<const T> from, ResultPlane<T>& to);
   std::vector<uint16_t> row_, begins_;
+  std::tuple<Image<uint8_t>, Image<uint16_t>> halves_;
 };
 
 }  // namespace rg
