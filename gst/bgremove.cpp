@@ -188,7 +188,7 @@ class BgRemove final : public PixelFilter<Settings, background::Stage> {
       postError(read.error().message);
       return false;
     }
-    return PixelFilter::start();
+    return startAt(settings.method == background::Method::Hybrid ? kUsualHeight : kHeightOfFrame);
   }
 
   GstFlowReturn process(const FilterFrame& frame) override {

@@ -51,7 +51,7 @@ GType areasType() {
 }
 
 struct Settings : PixelSettings, detection::Params {
-  Settings() { analysisHeight = 0; }  ///< Sizes of things are in pixels of the frame.
+  Settings() { analysisHeight = kHeightOfFrame; }  ///< Sizes of things are in pixels of the frame.
   std::string cascade;
   std::string label;
   DetectionAreas areas = DetectionAreas::Moving;

@@ -202,6 +202,13 @@ class HsvSegment final : public PixelFilter<Settings, segmentation::Stage> {
     }
   }
 
+  /// What bgremove has looked at.
+  [[nodiscard]] Size analysedSize(const FilterFrame& frame) const override {
+    const auto foreground = findResult<background::Foreground>(frame.buffer);
+    return foreground && !foreground->size.isEmpty() ? foreground->size
+                                                     : PixelFilter::analysedSize(frame);
+  }
+
   void divide(const FilterFrame& frame, std::shared_ptr<const Picture> picture,
               std::shared_ptr<const background::Foreground> foreground, const Settings& settings) {
     attach<segmentation::Labels>(

@@ -22,6 +22,6 @@ build_elements >&2
 
 in_build gst-launch-1.0 -q \
   filesrc location="$video" ! decodebin ! videoconvert ! \
-  "${background[@]}" hsvsegment colour-space=hsv ! srg ! prmmotion method=literal ! \
-  mrfmerge method=literal ! \
+  "${background[@]}" hsvsegment colour-space=hsv analysis-height=0 ! srg ! \
+  prmmotion method=literal ! mrfmerge method=literal ! \
   regionwrite format=jsonl location=- ! fakesink sync=false

@@ -17,7 +17,8 @@
 
 namespace rg {
 
-inline constexpr int kUsualHeight = -1;  ///< Of the property: as usualSize() says.
+/// Of analysis-height: as usualSize() says, and frames as they are.
+inline constexpr int kUsualHeight = -1, kHeightOfFrame = 0;
 
 struct PixelSettings : StageSettings {
   guint64 badBuffers = 0;
@@ -40,8 +41,8 @@ constexpr Property analysisHeightProperty() {
       "their shape, which makes cameras of many pixels cheap. All that is told of objects is still "
       "in pixels of the frame; properties in pixels, as max-shift, are of that picture. At least "
       "1/128 of the frame's. 0 = the frame as it is. -1 = the same, but frames of 96 to 299 rows "
-      "are "
-      "looked at twice as large, where things are found that are too small otherwise",
+      "are looked at twice as large, where things are found that are too small otherwise, unless "
+      "bgremove starts with another method than hybrid. Behind bgremove it is as there",
       kUsualHeight, 16384, Mutable::Ready);
 }
 
@@ -51,13 +52,7 @@ class PixelFilter : public StageOwner<Settings, Stage> {
  public:
   using StageOwner<Settings, Stage>::StageOwner;
 
-  bool start() override {
-    const Settings settings = this->currentSettings();
-    analysisHeight_ = settings.analysisHeight;
-    if constexpr (kHasBackend<Settings>) deviceId_ = settings.deviceId;
-    hasToldInterlaced_ = false;
-    return StageOwner<Settings, Stage>::start();
-  }
+  bool start() override { return startAt(kUsualHeight); }
   /// Pictures may have a copy on the device that goes now.
   void stop() override {
     StageOwner<Settings, Stage>::stop();
@@ -69,7 +64,15 @@ class PixelFilter : public StageOwner<Settings, Stage> {
   }
 
  protected:
-  [[nodiscard]] Size analysedSize(const FilterFrame& frame) const final {
+  /// `usual` is the height where nothing is asked for.
+  bool startAt(int usual) {
+    const Settings settings = this->currentSettings();
+    analysisHeight_ = settings.analysisHeight == kUsualHeight ? usual : settings.analysisHeight;
+    if constexpr (kHasBackend<Settings>) deviceId_ = settings.deviceId;
+    hasToldInterlaced_ = false;
+    return StageOwner<Settings, Stage>::start();
+  }
+  [[nodiscard]] Size analysedSize(const FilterFrame& frame) const override {
     const Size size = sizeOf(frame);
     return analysisHeight_ == kUsualHeight ? usualSize(size) : reducedSize(size, analysisHeight_);
   }
@@ -84,7 +87,7 @@ class PixelFilter : public StageOwner<Settings, Stage> {
       return mapped.frame().error();
     }
     tellInterlaced(*mapped.frame());
-    const Size size = this->analysedSize(frame);
+    const Size size = PixelFilter::analysedSize(frame);
     if (size == mapped.frame()->size()) {
       picture->load(*mapped.frame(), this->executor());
     } else if (size == doubled(mapped.frame()->size())) {
@@ -103,7 +106,7 @@ class PixelFilter : public StageOwner<Settings, Stage> {
   bool loadOnDevice(const FilterFrame& frame, Picture& picture) {
     Device* device = this->device();
     auto* reader = dynamic_cast<FrameReader*>(device);
-    if (reader == nullptr || analysedSize(frame) != sizeOf(frame)) return false;
+    if (reader == nullptr || PixelFilter::analysedSize(frame) != sizeOf(frame)) return false;
     const auto flags = cudaMapOf(frame.buffer, deviceId_);
     if (!flags) return false;
     const MappedFrame mapped(frame.buffer, frame.info, *flags);

@@ -60,8 +60,8 @@ PAPER_GATES = {  # Of method=paper: what regions save of the errors of a mask.
     'wallflower/ForegroundAperture': [('TE_left', AT_MOST, 0.75)],
 }
 LATER_STAGES = 'hsvsegment ! srg ! prmmotion ! mrfmerge'
-LITERAL_STAGES = ('hsvsegment colour-space=hsv ! srg ! prmmotion method=literal ! '
-                  'mrfmerge method=literal')
+LITERAL_STAGES = ('hsvsegment colour-space=hsv analysis-height=0 ! srg ! '
+                  'prmmotion method=literal ! mrfmerge method=literal')
 SHOWN = {'masks': ('F', 'precision', 'recall', 'TE', 'TE8'),
          'objects': ('F', 'precision', 'recall', 'TE', 'TE_saved', 'TE_left', 'TE8', 'TE8_saved'),
          'moving': ('J', 'F', 'precision', 'recall'),

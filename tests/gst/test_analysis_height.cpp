@@ -230,6 +230,28 @@ TEST(AnalysisHeightTest, MasksOfSmallFramesAreOfTheFrame) {
   EXPECT_GT(white, 1000);
 }
 
+TEST(AnalysisHeightTest, OtherMethodsLookAtSmallFramesAsTheyAre) {
+  for (const std::string stages : {testing::kPaperStages, testing::kDifferenceStages}) {
+    const Caps caps{"GRAY8", 160, 120};
+    std::string asItIs = stages;
+    for (const std::string name : {"bgremove", "hsvsegment"})
+      asItIs.insert(asItIs.find(name) + name.size(), " analysis-height=0");
+    testing::Story usual, expected;
+    Chain chain(stages, caps), other(asItIs, caps);
+    int seen = 0;
+    for (int i = 0; i < 30; ++i) {
+      BufferPtr a = busyFrame(caps, i), b = busyFrame(caps, i);
+      if (i % 7 == 6)
+        for (GstBuffer* frame : {a.get(), b.get()}) GST_BUFFER_FLAG_SET(frame, GST_BUFFER_FLAG_GAP);
+      a = chain.pass(std::move(a));
+      b = other.pass(std::move(b));
+      ASSERT_EQ(usual.tell(a.get()), expected.tell(b.get())) << stages << ' ' << i;
+      seen += testing::objectsOn(a.get());
+    }
+    EXPECT_GT(seen, 10) << stages;
+  }
+}
+
 TEST(AnalysisHeightTest, StaysAsItIsWhileRunning) {
   Chain chain("regiontrack analysis-height=64", kLarge);
   GstElement* track = chain.element("regiontrack");
