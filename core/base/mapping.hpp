@@ -31,7 +31,12 @@ struct FrameMap {
   [[nodiscard]] constexpr Box box(const Box& b) const {
     const Point first = point({b.x, b.y});
     const Point last = point({b.right(), b.bottom()});
-    return {first.x, first.y, std::max(last.x - first.x, b.width > 0 ? 1 : 0),
+    const auto start = [](int begin, int end, int whole) {
+      return begin == end && end == whole ? begin - 1 : begin;  // The last pixel, not the next.
+    };
+    return {b.width > 0 ? start(first.x, last.x, to.width) : first.x,
+            b.height > 0 ? start(first.y, last.y, to.height) : first.y,
+            std::max(last.x - first.x, b.width > 0 ? 1 : 0),
             std::max(last.y - first.y, b.height > 0 ? 1 : 0)};
   }
   /// Pixels, and means of pixels in 1/unit of one: the centre of one goes to the centre of those
@@ -66,6 +71,7 @@ struct FrameMap {
 }
 static_assert(FrameMap{{4, 4}, {8, 2}}.box({1, 1, 2, 2}) == Box{2, 1, 4, 1});
 static_assert(FrameMap{{100, 100}, {1, 1}}.box({40, 40, 3, 3}) == Box{0, 0, 1, 1});
+static_assert(FrameMap{{8, 8}, {4, 4}}.box({7, 7, 1, 1}) == Box{3, 3, 1, 1});
 static_assert(FrameMap{{3, 3}, {6, 6}}.area(5) == 20);
 static_assert(FrameMap{{5, 5}, {15, 25}}.centreX(2, 1) == 7 &&
               FrameMap{{5, 5}, {15, 25}}.centreY(4, 1) == 22);
