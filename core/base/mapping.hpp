@@ -11,6 +11,11 @@
 
 namespace rg {
 
+/// The pixel of a row of `to` pixels that lies under a place in one of `from`, in half pixels.
+[[nodiscard]] constexpr int pixelUnder(int64_t halves, int from, int to) {
+  return static_cast<int>(halves * to / (2 * int64_t{from}));
+}
+
 /// Maps by the ratio of two sizes, neither of them empty. Equal sizes change nothing.
 /// Range: sides up to 2^16, |x| and |y| < 2^47, areas within the frame.
 struct FrameMap {
@@ -27,17 +32,21 @@ struct FrameMap {
   [[nodiscard]] constexpr Point point(Point p) const {
     return {static_cast<int>(x(p.x)), static_cast<int>(y(p.y))};
   }
-  /// Maps the edges, so that boxes that touch still touch; what was not empty keeps a pixel.
+  /// Maps the edges, so that boxes that touch still touch; what was not empty keeps the
+  /// pixel under its middle.
   [[nodiscard]] constexpr Box box(const Box& b) const {
     const Point first = point({b.x, b.y});
     const Point last = point({b.right(), b.bottom()});
-    const auto start = [](int begin, int end, int whole) {
-      return begin == end && end == whole ? begin - 1 : begin;  // The last pixel, not the next.
-    };
-    return {b.width > 0 ? start(first.x, last.x, to.width) : first.x,
-            b.height > 0 ? start(first.y, last.y, to.height) : first.y,
-            std::max(last.x - first.x, b.width > 0 ? 1 : 0),
-            std::max(last.y - first.y, b.height > 0 ? 1 : 0)};
+    Box mapped{first.x, first.y, last.x - first.x, last.y - first.y};
+    if (b.width > 0 && mapped.width == 0) {
+      mapped.x = pixelUnder(2 * int64_t{b.x} + b.width, from.width, to.width);
+      mapped.width = 1;
+    }
+    if (b.height > 0 && mapped.height == 0) {
+      mapped.y = pixelUnder(2 * int64_t{b.y} + b.height, from.height, to.height);
+      mapped.height = 1;
+    }
+    return mapped;
   }
   /// Pixels, and means of pixels in 1/unit of one: the centre of one goes to the centre of those
   /// that it becomes.
@@ -53,10 +62,10 @@ struct FrameMap {
 
   /// The way back, for whole pixels of `to`: the pixel of `from` that lies under the centre.
   [[nodiscard]] constexpr int sourceX(int column) const {
-    return static_cast<int>((2 * int64_t{column} + 1) * from.width / (2 * int64_t{to.width}));
+    return pixelUnder(2 * int64_t{column} + 1, to.width, from.width);
   }
   [[nodiscard]] constexpr int sourceY(int row) const {
-    return static_cast<int>((2 * int64_t{row} + 1) * from.height / (2 * int64_t{to.height}));
+    return pixelUnder(2 * int64_t{row} + 1, to.height, from.height);
   }
   /// The first column x for which sourceX(x) is `column` or more.
   [[nodiscard]] constexpr int firstX(int column) const {
@@ -71,7 +80,7 @@ struct FrameMap {
 }
 static_assert(FrameMap{{4, 4}, {8, 2}}.box({1, 1, 2, 2}) == Box{2, 1, 4, 1});
 static_assert(FrameMap{{100, 100}, {1, 1}}.box({40, 40, 3, 3}) == Box{0, 0, 1, 1});
-static_assert(FrameMap{{8, 8}, {4, 4}}.box({7, 7, 1, 1}) == Box{3, 3, 1, 1});
+static_assert(FrameMap{{8, 8}, {4, 4}}.box({7, 5, 1, 1}) == Box{3, 2, 1, 1});
 static_assert(FrameMap{{3, 3}, {6, 6}}.area(5) == 20);
 static_assert(FrameMap{{5, 5}, {15, 25}}.centreX(2, 1) == 7 &&
               FrameMap{{5, 5}, {15, 25}}.centreY(4, 1) == 22);

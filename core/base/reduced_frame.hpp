@@ -19,8 +19,7 @@ namespace rg {
 
 /// The size at which a frame is looked at where nothing is asked for: small ones, of 96 to 299
 /// rows, twice as large (Picture::loadDoubled), unless they are wider than four times their height;
-/// all others as they are. In fewer rows than 96 there is nothing to be followed, and from 300 on
-/// nothing is gained.
+/// all others as they are. PETS09 S2L1 gains from 120 to 288 rows, and loses in 360.
 [[nodiscard]] constexpr Size usualSize(Size frame) {
   const bool isSmall = frame.height >= 96 && frame.height < 300;
   return isSmall && frame.width <= 4 * frame.height ? doubled(frame) : frame;
