@@ -72,7 +72,7 @@ fuzz_one() {  # TARGET SECONDS [arguments of libFuzzer]
   mkdir -p "$corpus" "$fuzz_build/slow/$target" "$fuzz_build/found"
   RG_SLOW_DIR=$fuzz_build/slow/$target "${fuzz_environment[@]}" \
     "$fuzz_build/tests/fuzz/fuzz-$target" -max_total_time="$seconds" -max_len=1500 -len_control=0 \
-    -timeout=60 -rss_limit_mb=2048 -print_final_stats=1 \
+    -timeout=240 -rss_limit_mb=2048 -print_final_stats=1 \
     -artifact_prefix="$fuzz_build/found/$target-" "$@" \
     "$corpus" "$root/tests/fuzz/corpus/$target" >"$log" 2>&1 || status=$?
   local runs
