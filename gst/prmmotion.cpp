@@ -12,6 +12,7 @@
  *   prmmotion max-shift=32 ! regionwrite format=regions location=regions.csv ! fakesink
  * ]|
  */
+#include "core/base/mapping.hpp"
 #include "core/motion/motion.hpp"
 #include "core/text/text.hpp"
 #include "gst/elements.hpp"
@@ -44,9 +45,11 @@ struct Settings : StageSettings, motion::Params, BackendSettings {};
 constexpr std::array kProperties{
     property<Settings, &Settings::maxShiftPx>(
         "max-shift",
-        "Largest motion between two frames that is searched, in pixels along each axis. The best "
-        "shift of all is found; 64 takes about twice as long as 20",
-        1, 64),
+        "Largest motion between two frames that is searched, in pixels of the frame along each "
+        "axis, up to 64 of the picture that is looked at. The best shift of all is found; 64 takes "
+        "about twice as long as 20. 0 = as far as a thing gets that crosses the frame's height in "
+        "a second, at least 20",
+        0, 64),
     property<Settings, &Settings::isSubpixel>(
         "subpixel",
         "Refine vectors to 1/16 pixel; otherwise, and with method=literal, they are whole pixels"),
@@ -67,10 +70,13 @@ class PrmMotion final : public ChainedFilter<Settings, motion::Stage, graph::Gra
   void handle(const FilterFrame& frame, std::shared_ptr<const graph::Graph> graph,
               const Settings& settings) override {
     checkOrder<objects::Objects>(frame);
-    if (graph)
-      attach<motion::Motion>(frame, stage().process(std::move(graph), settings));
-    else
-      attachSkipped<motion::Motion>(frame);
+    if (!graph) return attachSkipped<motion::Motion>(frame);
+    motion::Params params = settings;
+    if (params.maxShiftPx > 0) {
+      const FrameMap toPicture = mapBetween(sizeOf(frame), graph->size);
+      params.maxShiftPx = static_cast<int>(std::max<int64_t>(toPicture.y(params.maxShiftPx), 1));
+    }
+    attach<motion::Motion>(frame, stage().process(std::move(graph), params, frame.time));
   }
 
   [[nodiscard]] Progress describe(const FilterFrame& frame) override {

@@ -5,6 +5,7 @@
 #include "core/base/memory/operations_source.hpp"
 #include "core/base/memory/pool.hpp"
 #include "core/base/renewed_stage.hpp"
+#include "core/base/time/time.hpp"
 #include "core/motion/camera/camera_view.hpp"
 #include "core/motion/matched_blocks.hpp"
 #include "core/motion/operations.hpp"
@@ -15,13 +16,29 @@
 namespace rg::motion {
 namespace {
 
+constexpr int kLeastUsualShift = 20;  // px, of what is searched where nothing is asked for: at a
+                                      // high rate sampling and shake still move by pixels.
+constexpr int kMostShift = kMostReach - 1;
+
+constexpr int64_t stepBetween(FrameTime earlier, FrameTime later) {
+  const int64_t step = timeBetween(earlier.ns, later.ns);
+  return earlier.isKnown && later.isKnown && step > 0 ? step : kNominalStepNs;
+}
+
+constexpr int furthestShift(const Params& params, Size size, int64_t stepNs) {
+  if (params.maxShiftPx > 0) return std::min(params.maxShiftPx, kMostShift);
+  constexpr int64_t kSecondNs = 1'000'000'000;
+  const int64_t inStep = size.height * std::min(stepNs, kSecondNs) / kSecondNs;
+  return static_cast<int>(std::clamp<int64_t>(inStep, kLeastUsualShift, kMostShift));
+}
+
 class MotionStage final : public Stage {
  public:
   explicit MotionStage(Context context)
       : context_(std::move(context)), operations_(makeOperations<Operations>(context_)) {}
 
   Result<std::shared_ptr<const Motion>> process(std::shared_ptr<const graph::Graph> graph,
-                                                const Params& params) override;
+                                                const Params& params, FrameTime time) override;
   void reset(Reset) override {
     previous_.reset();
     camera_.reset();
@@ -38,6 +55,7 @@ class MotionStage final : public Stage {
   Context context_;
   std::unique_ptr<Operations> operations_;
   std::shared_ptr<const Picture> previous_;
+  FrameTime previousTime_;
   MatchedBlocks blocks_;
   std::vector<uint8_t> isStill_;  ///< By region: none of its matched pixels has changed.
   CameraSearch camera_;
@@ -47,7 +65,7 @@ class MotionStage final : public Stage {
 };
 
 Result<std::shared_ptr<const Motion>> MotionStage::process(
-    std::shared_ptr<const graph::Graph> graph, const Params& params) {
+    std::shared_ptr<const graph::Graph> graph, const Params& params, FrameTime time) {
   const auto motion = pool_.take();
   motion->size = graph->size;
   motion->status = Status::Skipped;
@@ -57,10 +75,13 @@ Result<std::shared_ptr<const Motion>> MotionStage::process(
   if (graph->status != Status::Skipped) {
     std::shared_ptr<const Picture> picture = graph->picture;
     if (previous_ && previous_->size() == picture->size()) {
-      match(*graph, params, *motion);
+      Params inForce = params;
+      inForce.maxShiftPx = furthestShift(params, picture->size(), stepBetween(previousTime_, time));
+      match(*graph, inForce, *motion);
       motion->status = graph->status;
     }
     previous_ = std::move(picture);
+    previousTime_ = time;
   }
   motion->graph = std::move(graph);
   return std::shared_ptr<const Motion>(motion);
@@ -76,15 +97,14 @@ CameraMotion MotionStage::cameraOf(const graph::Graph& graph) {
 }
 
 void MotionStage::match(const graph::Graph& graph, const Params& params, Motion& motion) {
-  const int maxShift = std::clamp(params.maxShiftPx, 1, kMostReach - 1);
   if (graph.labels->scope == segmentation::Scope::Frame) motion.camera = cameraOf(graph);
-  if (params.method == Method::Literal) return matchLiterally(graph, maxShift, motion);
+  if (params.method == Method::Literal) return matchLiterally(graph, params.maxShiftPx, motion);
   blocks_.find(graph, *context_.cpu);
   if (blocks_.parts().empty()) return;
   isStill_.assign(motion.regions.size(), 0);
   // What moves so far that a thing which the camera follows may still be found is searched as it
   // was: without a trace of interpolation.
-  if (2 * furthestMotion(motion.camera, motion.size) <= maxShift * kMotionUnit)
+  if (2 * furthestMotion(motion.camera, motion.size) <= params.maxShiftPx * kMotionUnit)
     search(graph, *previous_, params, {motion.regions, isStill_});
   else
     searchBeyondCamera(graph, params, motion);
@@ -96,8 +116,7 @@ void MotionStage::match(const graph::Graph& graph, const Params& params, Motion&
 
 void MotionStage::search(const graph::Graph& graph, const Picture& before, const Params& params,
                          const WholeShifts& out) {
-  const int maxShift = std::clamp(params.maxShiftPx, 1, kMostReach - 1);
-  const MatchedFrames frames{*graph.picture, before, blocks_, maxShift};
+  const MatchedFrames frames{*graph.picture, before, blocks_, params.maxShiftPx};
   operations_->searchShifts(frames, out);
   if (params.isSubpixel) operations_->refine(graph, frames, out.motion);
 }

@@ -60,7 +60,8 @@ enum class Method : uint8_t {
 };
 
 struct Params {
-  int maxShiftPx = 20;     ///< Searched in both directions of both axes. 1 … 64.
+  int maxShiftPx = 0;      ///< Searched in both directions of both axes. 1 … 64; 0 = as far as a
+                           ///< thing of the frame's height in a second gets, 20 … 64.
   bool isSubpixel = true;  ///< False: the best whole-pixel shifts, of no neighbour's influence.
                            ///< Of Method::Refined.
   Method method = Method::Refined;
@@ -70,7 +71,7 @@ class Stage {
  public:
   virtual ~Stage() = default;
   [[nodiscard]] virtual Result<std::shared_ptr<const Motion>> process(
-      std::shared_ptr<const graph::Graph> graph, const Params& params) = 0;
+      std::shared_ptr<const graph::Graph> graph, const Params& params, FrameTime time) = 0;
   virtual void reset(Reset what) = 0;
 };
 

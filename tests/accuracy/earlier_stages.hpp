@@ -43,7 +43,7 @@ class EarlierStages {
     }
     const auto labels = valueOf(segmentation_->process(picture, foreground, segmentation));
     const auto graph = valueOf(graph_->process(labels, {}));
-    return valueOf(motion_->process(graph, {}));
+    return valueOf(motion_->process(graph, {}, time_));
   }
   /// What was found in the last frame, in pixels of the frame.
   [[nodiscard]] std::shared_ptr<const objects::Objects> shown(

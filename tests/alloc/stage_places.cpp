@@ -70,7 +70,7 @@ const Inputs& inputsOf(segmentation::Scope scope) {
         scope == segmentation::Scope::Frame ? nullptr : inputs.foregrounds.back(),
         segmentationOf(scope)));
     inputs.graphs.push_back(*graph->process(inputs.labels.back(), {}));
-    inputs.motions.push_back(*motion->process(inputs.graphs.back(), {}));
+    inputs.motions.push_back(*motion->process(inputs.graphs.back(), {}, {}));
   }
   return inputs;
 }

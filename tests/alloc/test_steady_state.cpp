@@ -59,7 +59,7 @@ class Counted {
           picture, scope_ == segmentation::Scope::Frame ? nullptr : foreground, {scope_});
     });
     const auto graph = count([&] { return graph_->process(labels, {}); });
-    const auto motion = count([&] { return motion_->process(graph, {}); });
+    const auto motion = count([&] { return motion_->process(graph, {}, {}); });
     const auto objects = count([&] { return objects_->process(motion, {}, now); });
     seen_ += objects->objects.size();
     const uint64_t before = ::rg::testing::allocations();

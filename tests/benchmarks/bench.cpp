@@ -83,7 +83,7 @@ class Pipeline {
     const auto graph =
         timings.measure(kStages[1], [&] { return valueOf(graph_->process(labels, graphParams_)); });
     const auto motion = timings.measure(
-        kStages[2], [&] { return valueOf(motion_->process(graph, motionParams_)); });
+        kStages[2], [&] { return valueOf(motion_->process(graph, motionParams_, {})); });
     const auto objects = timings.measure(
         kStages[3], [&] { return valueOf(objects_->process(motion, objectParams_, time)); });
     note(*motion, *objects);

@@ -52,7 +52,7 @@ class Tracker {
     const FrameTime time{frames_++ * kFrameNs, true};
     const auto foreground = valueOf(background_->process(picture, {}, time));
     const auto labels = valueOf(segmentation_->process(picture, foreground, scope_));
-    const auto motion = valueOf(motion_->process(valueOf(graph_->process(labels, {})), {}));
+    const auto motion = valueOf(motion_->process(valueOf(graph_->process(labels, {})), {}, {}));
     const auto objects = valueOf(objects_->process(motion, {}, time));
     std::vector<Box> areas;
     for (const objects::Object& object : objects->objects)

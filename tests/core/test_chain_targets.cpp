@@ -63,7 +63,7 @@ std::vector<std::string> describe(const std::shared_ptr<const Executor>& executo
     const auto& picture = clip()[static_cast<size_t>(frame)];
     const auto foreground = *background->process(picture, {}, time);
     const auto labels = *segmentation->process(picture, foreground, params);
-    const auto motions = *motion->process(*graph->process(labels, {}), {});
+    const auto motions = *motion->process(*graph->process(labels, {}), {}, {});
     const auto found = *objects->process(motions, {}, time);
     std::string& line = lines.emplace_back();
     const text::FrameStamp stamp{static_cast<uint64_t>(frame + 1), kSize, {}, {}};

@@ -56,7 +56,7 @@ TEST(StageMemory, StaysWithinTheBoundOnTheWorstFrames) {
       for (const auto& picture : pictures) {
         const auto labels = *segmentation->process(
             picture, nullptr, {segmentation::Scope::Frame, 2, 1, kMostRegions});
-        last = *objects->process(*motions->process(*graphs->process(labels, {}), {}), {}, {});
+        last = *objects->process(*motions->process(*graphs->process(labels, {}), {}, {}), {}, {});
       }
       const size_t grown = bytesInUse() - before;
       const auto pixels = static_cast<size_t>(size.area());

@@ -57,7 +57,7 @@ class Chained {
     const auto labels = counted(
         *labelling_->process(seen->picture, seen, {ways.scope, 8, ways.minAreaPx, 150, {}}));
     const auto graph = counted(*graphs_->process(labels, {}));
-    const auto moved = counted(*motions_->process(graph, {ways.maxShiftPx}));
+    const auto moved = counted(*motions_->process(graph, {ways.maxShiftPx}, {}));
     return counted(*objects_->process(moved, {}, {frame_++ * StagedScene::kFrameNs, true}));
   }
   /// Of the last frame, by stage.

@@ -73,7 +73,7 @@ struct Chained {
   std::shared_ptr<const Motion> show(const std::shared_ptr<const Labels>& labels,
                                      Connectivity connectivity = Connectivity::Four,
                                      const motion::Params& params = {}) {
-    return *motions->process(*graphs->process(labels, {connectivity}), params);
+    return *motions->process(*graphs->process(labels, {connectivity}), params, {});
   }
 };
 

@@ -40,7 +40,7 @@ std::vector<std::shared_ptr<const Motion>> walk(segmentation::Scope scope, bool 
     if (isMoving) take.push = {2 * i, i};
     const auto seen = scene.show(take);
     const auto labels = *labelling->process(seen->picture, seen, {scope, 8, 40, 150, {}});
-    moved.push_back(*motions->process(*graphs->process(labels, {}), {6}));
+    moved.push_back(*motions->process(*graphs->process(labels, {}), {6}, {}));
   }
   return moved;
 }

@@ -24,8 +24,8 @@ std::shared_ptr<const motion::Motion> match(std::shared_ptr<const Picture> previ
                                             const LabelAt& labelAt, int reach, int threads = 1) {
   const auto stage = motion::makeStage(contextWith(threads));
   const motion::Params params{reach, true, motion::Method::Literal};
-  EXPECT_TRUE(stage->process(graphOf(label(previous, 1, [](int, int) { return 1; })), params));
-  auto motion = stage->process(graphOf(label(current, count, labelAt)), params);
+  EXPECT_TRUE(stage->process(graphOf(label(previous, 1, [](int, int) { return 1; })), params, {}));
+  auto motion = stage->process(graphOf(label(current, count, labelAt)), params, {});
   EXPECT_TRUE(motion);
   return *motion;
 }

@@ -20,6 +20,12 @@ std::shared_ptr<const graph::Graph> graphOf(std::shared_ptr<const segmentation::
   return *graph;
 }
 
+std::shared_ptr<const graph::Graph> graphOf(
+    const std::shared_ptr<const segmentation::Labels>& labels, segmentation::Scope scope) {
+  std::const_pointer_cast<segmentation::Labels>(labels)->scope = scope;
+  return graphOf(labels);
+}
+
 using LabelAt = std::function<int(int, int)>;
 
 std::shared_ptr<const motion::Motion> match(
@@ -27,13 +33,9 @@ std::shared_ptr<const motion::Motion> match(
     const LabelAt& labelAt, const motion::Params& params, int threads = 1,
     segmentation::Scope scope = segmentation::Scope::Foreground) {
   const auto stage = motion::makeStage(contextWith(threads));
-  const auto scoped = [&](const std::shared_ptr<const segmentation::Labels>& labels) {
-    const auto copy = std::const_pointer_cast<segmentation::Labels>(labels);
-    copy->scope = scope;
-    return graphOf(labels);
-  };
-  EXPECT_TRUE(stage->process(scoped(label(previous, 1, [](int, int) { return 1; })), params));
-  auto motion = stage->process(scoped(label(current, count, labelAt)), params);
+  const auto before = label(previous, 1, [](int, int) { return 1; });
+  EXPECT_TRUE(stage->process(graphOf(before, scope), params, {}));
+  auto motion = stage->process(graphOf(label(current, count, labelAt), scope), params, {});
   EXPECT_TRUE(motion);
   EXPECT_EQ((*motion)->status, Status::Ok);
   return *motion;
@@ -64,6 +66,32 @@ TEST(RegionMotion, FindsEveryTranslation) {
     EXPECT_EQ(motion->regions[0].dy, d.y * motion::kMotionUnit);
     EXPECT_EQ(motion->regions[0].sad, 0u);
   }
+}
+
+// Where nothing is asked for: by what passes the frame's 96 rows in a second, 20 to 64.
+TEST(RegionMotion, SearchesAsFarAsThingsGetBetweenTwoFrames) {
+  const Size size{192, 96};
+  const auto graphAt = [&](int dx) {
+    const auto labels = label(movedNoise(size, dx, 0), 1, [](int x, int y) {
+      return x >= 72 && x < 120 && y >= 8 && y < 88 ? 1 : 0;
+    });
+    return graphOf(labels, segmentation::Scope::Foreground);
+  };
+  constexpr int64_t kMs = 1'000'000;
+  const auto finds = [&](int dx, FrameTime earlier, FrameTime later) {
+    const auto stage = motion::makeStage(contextWith(1));
+    EXPECT_TRUE(stage->process(graphAt(0), {.isSubpixel = false}, earlier));
+    const auto motion = *stage->process(graphAt(dx), {.isSubpixel = false}, later);
+    return motion->regions[0].dx == dx * motion::kMotionUnit;
+  };
+  EXPECT_TRUE(finds(20, {5 * kMs, true}, {6 * kMs, true}));
+  EXPECT_FALSE(finds(21, {5 * kMs, true}, {6 * kMs, true}));
+  EXPECT_TRUE(finds(48, {5 * kMs, true}, {505 * kMs, true}));
+  EXPECT_FALSE(finds(49, {5 * kMs, true}, {505 * kMs, true}));
+  EXPECT_TRUE(finds(64, {5 * kMs, true}, {5005 * kMs, true}));
+  EXPECT_FALSE(finds(65, {INT64_MIN, true}, {INT64_MAX, true}));
+  EXPECT_FALSE(finds(21, {5 * kMs, true}, {505 * kMs, false}));
+  EXPECT_FALSE(finds(21, {505 * kMs, true}, {5 * kMs, true}));
 }
 
 motion::RegionMotion search(const Picture& previous, const Picture& current,
@@ -326,18 +354,18 @@ TEST(RegionMotion, DoesNotDependOnFramesBeforeThePreviousOne) {
   };
   const auto first = graphAt(0), second = graphAt(1.5), third = graphAt(4.25);
   const auto stage = motion::makeStage(contextWith(2));
-  for (const auto& graph : {first, second}) ASSERT_TRUE(stage->process(graph, {8, true}));
+  for (const auto& graph : {first, second}) ASSERT_TRUE(stage->process(graph, {8, true}, {}));
   for (const int reach : {8, 13}) {
     const auto fresh = motion::makeStage(contextWith(2));
-    ASSERT_TRUE(fresh->process(second, {}));
-    const auto expected = *fresh->process(third, {reach, true});
-    const auto found = *stage->process(third, {reach, true});
+    ASSERT_TRUE(fresh->process(second, {}, {}));
+    const auto expected = *fresh->process(third, {reach, true}, {});
+    const auto found = *stage->process(third, {reach, true}, {});
     for (size_t i = 0; i < expected->regions.size(); ++i) {
       EXPECT_EQ(found->regions[i].dx, expected->regions[i].dx);
       EXPECT_EQ(found->regions[i].dy, expected->regions[i].dy);
       EXPECT_EQ(found->regions[i].reliability, expected->regions[i].reliability);
     }
-    ASSERT_TRUE(stage->process(second, {8, true}));
+    ASSERT_TRUE(stage->process(second, {8, true}, {}));
   }
 }
 
@@ -346,12 +374,12 @@ TEST(RegionMotion, WithoutAPreviousFrameAllVectorsAreZero) {
       graphOf(label(greyNoise({20, 20}, 1), 2, [](int x, int) { return 1 + x / 10; }));
   const auto stage = motion::makeStage(contextWith(1));
   for (const Reset reset : {Reset::Stream, Reset::Flush, Reset::Gap}) {
-    const auto first = stage->process(graph, {});
+    const auto first = stage->process(graph, {}, {});
     ASSERT_TRUE(first);
     EXPECT_EQ((*first)->status, Status::Skipped);
     ASSERT_EQ((*first)->regions.size(), 2u);
     EXPECT_EQ((*first)->regions[1].reliability, 0);
-    EXPECT_EQ((*stage->process(graph, {}))->status, Status::Ok);
+    EXPECT_EQ((*stage->process(graph, {}, {}))->status, Status::Ok);
     stage->reset(reset);
   }
 }
@@ -359,12 +387,12 @@ TEST(RegionMotion, WithoutAPreviousFrameAllVectorsAreZero) {
 TEST(RegionMotion, ASkippedFrameKeepsThePreviousOne) {
   const auto graph = graphOf(label(greyNoise({20, 20}, 1), 1, everywhere));
   const auto stage = motion::makeStage(contextWith(1));
-  ASSERT_TRUE(stage->process(graph, {}));
-  const auto skipped = stage->process(std::make_shared<graph::Graph>(), {});
+  ASSERT_TRUE(stage->process(graph, {}, {}));
+  const auto skipped = stage->process(std::make_shared<graph::Graph>(), {}, {});
   ASSERT_TRUE(skipped);
   EXPECT_EQ((*skipped)->status, Status::Skipped);
   EXPECT_TRUE((*skipped)->regions.empty());
-  EXPECT_EQ((*stage->process(graph, {}))->status, Status::Ok);
+  EXPECT_EQ((*stage->process(graph, {}, {}))->status, Status::Ok);
 }
 
 }  // namespace

@@ -114,7 +114,7 @@ class ResultPackerTest : public ::testing::Test {
     auto foreground = *background_->process(picture, learning, now);
     auto labels =
         *segmentation_->process(picture, std::move(foreground), {segmentation::Scope::Foreground});
-    auto motion = *motion_->process(*graph_->process(std::move(labels), {}), {});
+    auto motion = *motion_->process(*graph_->process(std::move(labels), {}), {}, {});
     return *objects_->process(std::move(motion), {}, now);
   }
 

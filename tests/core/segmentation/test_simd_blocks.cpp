@@ -298,7 +298,7 @@ std::vector<int64_t> answersOf(const std::shared_ptr<const Picture>& first,
   for (const auto& picture : {first, second}) {
     const auto labels = *segmentation->process(picture, nullptr, params);
     const auto graph = *graphs->process(labels, {});
-    const auto motion = *motions->process(graph, {9, true});
+    const auto motion = *motions->process(graph, {9, true}, {});
     const auto result = *objects->process(motion, {}, {ns += 40'000'000, true});
     for (int y = 0; y < labels->size.height; ++y)
       for (int x = 0; x < labels->size.width; ++x)
