@@ -13,6 +13,7 @@
  * ! regionmask source=labels ! pngenc ! multifilesink location=labels-%06d.png
  * ]|
  */
+#include "core/base/mapping.hpp"
 #include "core/segmentation/segmentation.hpp"
 #include "core/text/text.hpp"
 #include "gst/elements.hpp"
@@ -84,8 +85,8 @@ constexpr std::array kProperties{
         colourSpaceType),
     property<Settings, &Settings::minAreaPx>(
         "min-area",
-        "Regions with fewer pixels are absorbed by the neighbour most like them; 0 = 1/1200 of the "
-        "frame's pixels, at least 32",
+        "Regions with fewer pixels of the frame are absorbed by the neighbour most like them; 0 = "
+        "1/1200 of the pixels that are looked at, at least 32",
         0, 1 << 24),
     property<Settings, &Settings::maxRegions>(
         "max-regions", "Never more regions than this; the smallest are absorbed first", 1, 65535),
@@ -211,8 +212,13 @@ class HsvSegment final : public PixelFilter<Settings, segmentation::Stage> {
 
   void divide(const FilterFrame& frame, std::shared_ptr<const Picture> picture,
               std::shared_ptr<const background::Foreground> foreground, const Settings& settings) {
+    segmentation::Params params = settings;
+    if (params.minAreaPx > 0) {
+      const FrameMap toPicture = mapBetween(sizeOf(frame), picture->size());
+      params.minAreaPx = static_cast<int>(std::max<int64_t>(toPicture.area(params.minAreaPx), 1));
+    }
     attach<segmentation::Labels>(
-        frame, stage().process(std::move(picture), std::move(foreground), settings));
+        frame, stage().process(std::move(picture), std::move(foreground), params));
   }
 
   [[nodiscard]] Progress describe(const FilterFrame& frame) override {

@@ -38,9 +38,9 @@ constexpr Property analysisHeightProperty() {
   return property<Settings, &Settings::analysisHeight>(
       "analysis-height",
       "Rows of the picture that the stages look at; frames with more are scaled down for them, in "
-      "their shape, which makes cameras of many pixels cheap. All that is told of objects is still "
-      "in pixels of the frame; properties in pixels, as max-shift, are of that picture. At least "
-      "1/128 of the frame's. 0 = the frame as it is. -1 = the same, but frames of 96 to 299 rows "
+      "their shape, which makes cameras of many pixels cheap. All that is told of objects, and all "
+      "properties in pixels, as max-shift, are still in pixels of the frame. At least 1/128 of the "
+      "frame's. 0 = the frame as it is. -1 = the same, but frames of 96 to 299 rows "
       "are looked at twice as large, where things are found that are too small otherwise, unless "
       "bgremove starts with another method than hybrid. Behind bgremove it is as there",
       kUsualHeight, 16384, Mutable::Ready);

@@ -114,6 +114,25 @@ INSTANTIATE_TEST_SUITE_P(Chains, AnalysisHeight,
                                            "regiontrack training-frames=2",
                                            "regiontrack training-frames=2 latency=0.2"));
 
+TEST(AnalysisHeightTest, PropertiesInPixelsAreOfTheFrame) {
+  const auto stages = [](const std::string& reduced, int times) {
+    return "hsvsegment " + reduced + " min-area=" + std::to_string(60 * times * times) +
+           " ! srg ! prmmotion max-shift=" + std::to_string(2 * times) + " ! mrfmerge";
+  };
+  Chain small(stages("", 1), kSmall), large(stages("analysis-height=64", kTimes), kLarge);
+  Chain usual("hsvsegment ! srg ! prmmotion ! mrfmerge", kSmall);
+  int others = 0;
+  for (int i = 0; i < 20; ++i) {
+    const BufferPtr a = large.pass(enlarged(i)), b = small.pass(busyFrame(kSmall, i)),
+                    c = usual.pass(busyFrame(kSmall, i));
+    expectEnlarged(a, b);
+    ASSERT_FALSE(HasFatalFailure()) << "frame " << i;
+    others +=
+        resultOn<graph::Graph>(c)->regions.size() != resultOn<graph::Graph>(b)->regions.size();
+  }
+  EXPECT_GT(others, 10);  // Or min-area did nothing.
+}
+
 TEST(AnalysisHeightTest, FitsTheAreasOfInterest) {
   const std::string areas = " areas-of-interest=\"0,0 0.5,0 0.5,1 0,1\"";
   Chain small("regiontrack training-frames=2" + areas, kSmall);
