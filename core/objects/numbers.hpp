@@ -146,6 +146,7 @@ struct Numbers {
     Number leastShare{1, 200};    ///< Of a portrait, that has to agree,
     Number rigidShare{1, 32};     ///< and of what keeps its shape.
     Number agreeing{1, 2};        ///< Of what is seen of it.
+    Number part{1, 2};            ///< Of what came out of it, that was a part of it.
     Number about{1, 8};           ///< By so much of its size a clear blob may be off.
     Number turnX{1, 3};           ///< Of its width, that a turn may carry it by,
     Number turnY{1, 6};           ///< and of its height.

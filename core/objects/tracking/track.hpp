@@ -39,6 +39,7 @@ struct Track {
   Portrait portrait;
   graph::Colour colour;
   std::vector<uint64_t> parents;
+  uint64_t partOf = 0;   ///< The track whose portrait showed it when it came out of that; 0 = none.
   int64_t unseenNs = 0;  ///< Since it was last seen.
   int64_t ageNs = 0;
   int64_t seenNs = 0;                 ///< Of its age.

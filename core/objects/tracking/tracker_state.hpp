@@ -29,6 +29,7 @@ struct Sighting {
   uint64_t areaPx = 0;         ///< Of those groups.
   int64_t sumX = 0, sumY = 0;  ///< Of the places of their pixels, in 1/256 px.
   LookCounts look;
+  Point corner;   ///< Of the portrait that was found, in pixels.
   Point matched;  ///< Middle of the lower edge of the portrait, in 1/16 px.
 };
 

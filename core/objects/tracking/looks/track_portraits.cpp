@@ -142,6 +142,7 @@ void TrackPortraits::giveMatch(const PortraitScene& scene, Task& task, TrackerSt
   s.isMatched = true;
   s.share = match.share();
   s.matched = placeOfMatch(track, corner, match);
+  s.corner = task.corner;
   forPortraitCells(track.portrait, scene, task.corner, [&](size_t cell, bool isAlike) {
     if (!isAlike || state.owner[cell] != 0) return;
     state.owner[cell] = static_cast<uint16_t>(task.track + 1);
@@ -150,6 +151,24 @@ void TrackPortraits::giveMatch(const PortraitScene& scene, Task& task, TrackerSt
   state.tasks[task.fit].fitted = cellsOf(
       {task.corner.x, task.corner.y, track.portrait.sizePx.width, track.portrait.sizePx.height},
       scene.evidence.stepPx);
+}
+
+// What stands in front of a part of a track looks otherwise than that part did.
+void findParts(size_t index, const GroupGrid& e, TrackerState& state) {
+  const Track& track = state.tracks[index];
+  if (!state.sightings[index].isMatched) return;
+  for (size_t part = index + 1; part < state.tracks.size(); ++part) {
+    Track& other = state.tracks[part];
+    if (other.isConfirmed || other.parents.empty() || other.parents.front() != track.id) continue;
+    const Box box = intersect(cellsOf(other.box(), e.stepPx), boundsOf(e.grid));
+    uint32_t cells = 0, alike = 0;
+    for (int y = box.y; y < box.bottom(); ++y)
+      for (int x = box.x; x < box.right(); ++x) cells += state.owner[e.at(x, y)] == part + 1;
+    forPortraitCells(
+        track.portrait, {e, *e.picture, {}}, state.sightings[index].corner,
+        [&](size_t cell, bool isAlike) { alike += isAlike && state.owner[cell] == part + 1; });
+    if (cells > 0 && alike >= state.numbers.likeness.part * cells) other.partOf = track.id;
+  }
 }
 
 void learnPortrait(size_t index, const GroupGrid& e, TrackerState& state) {

@@ -36,6 +36,10 @@ class TrackPortraits {
   std::vector<PortraitScratch> scratch_;  ///< Of each thread.
 };
 
+/// Which of what came out of a track that was found is seen in its place and looks as that part of
+/// it did.
+void findParts(size_t index, const GroupGrid& evidence, TrackerState& state);
+
 /// Of a track that was seen whole.
 void learnPortrait(size_t index, const GroupGrid& evidence, TrackerState& state);
 

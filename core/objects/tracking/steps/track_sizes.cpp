@@ -3,6 +3,7 @@
 
 #include "core/base/pixel.hpp"
 #include "core/base/time/frame_count.hpp"
+#include "core/objects/tracking/looks/track_portraits.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -46,6 +47,25 @@ void mixSize(const Sighting& s, const TrackerState& state, Track& track) {
   }
 }
 
+/// Whether a part of a track has shown to be a thing of its own.
+bool losesPart(const Track& track, TrackerState& state) {
+  for (Track& part : state.tracks)
+    if (part.partOf == track.id && part.isConfirmed && part.isSeen) {
+      part.partOf = 0;
+      return true;
+    }
+  return false;
+}
+
+/// It is no more than what is seen of it.
+void startAnew(const Box& box, Track& track) {
+  track.x = (2 * box.x + box.width) * kUnit / 2;
+  track.foot = box.bottom() * kUnit;
+  track.size = {box.width * kUnit, box.height * kUnit};
+  track.portrait.frames = 0;
+  track.centreSamples = 0;
+}
+
 }  // namespace
 
 void learnSize(size_t index, int64_t stepNs, const GroupGrid& e, TrackerState& state) {
@@ -54,6 +74,10 @@ void learnSize(size_t index, int64_t stepNs, const GroupGrid& e, TrackerState& s
   if (track.isSeen && s.isSole) track.apartNs += stepNs;
   if (track.isSeen) track.seenNs += stepNs;
   track.partedNs = s.isParted ? track.partedNs + stepNs : 0;
+  if (!state.scale.isUniform()) {
+    findParts(index, e, state);
+    if (s.isSole && !s.box.isEmpty() && losesPart(track, state)) return startAnew(s.box, track);
+  }
   const Box frame = boundsOf(e.frame);
   const bool isCut = s.box.x <= frame.x || s.box.y <= frame.y || s.box.right() >= frame.right() ||
                      s.box.bottom() >= frame.bottom();

@@ -187,6 +187,30 @@ TEST(HiddenObjects, TwoThatCameInAboveEachOtherArePartedOnceTheyMoveApart) {
   }
 }
 
+TEST(HiddenObjects, WhatLostAPartThatGoesOnByItselfIsNoLargerThanWhatIsLeft) {
+  BodyScene scene;
+  for (int i = 0; i < 60; ++i) {
+    const int parted = std::max(0, i - 20);
+    const Body upper{{20 + 3 * i, 84, 30, 36}, kRed};
+    const Body lower{{20 + 3 * i - parted / 2, i < 20 ? 120 : 126, 36, 36}, kBlue};
+    const auto objects = scene.show({upper, lower});
+    if (i == 19) {
+      ASSERT_EQ(objects->objects.size(), 1u);
+      EXPECT_NEAR(objects->objects[0].box.height, 72, 4);
+    }
+    if (i < 40) continue;
+    for (const Box& box : {upper.box, lower.box})
+      EXPECT_EQ(std::count_if(objects->objects.begin(), objects->objects.end(),
+                              [&](const objects::Object& object) {
+                                return objects::isListed(object.state) &&
+                                       4 * intersect(object.box, box).area() >
+                                           3 * unite(object.box, box).area();
+                              }),
+                1)
+          << i;
+  }
+}
+
 TEST(HiddenObjects, WhatIsCompleteTakesNoParts) {
   BodyScene scene;
   for (int i = 0; i < 60; ++i) {
