@@ -185,7 +185,7 @@ void addOthers(segmentation::Scope scope, int threads, std::vector<Place>& place
     return *stage.process(in.labels[i], {Connectivity::Eight});
   });
   add("motion", motion::makeStage, [](motion::Stage& stage, const Inputs& in, size_t i) {
-    return *stage.process(in.graphs[i], {});
+    return *stage.process(in.graphs[i], {}, {});
   });
   add("objects", objects::makeStage, [](objects::Stage& stage, const Inputs& in, size_t i) {
     return *stage.process(in.motions[i], {}, timeOf(static_cast<int>(i)));
