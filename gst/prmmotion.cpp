@@ -48,7 +48,7 @@ constexpr std::array kProperties{
         "Largest motion between two frames that is searched, in pixels of the frame along each "
         "axis, up to 64 of the picture that is looked at. The best shift of all is found; 64 takes "
         "about twice as long as 20. 0 = as far as a thing gets that crosses the frame's height in "
-        "a second, at least 20",
+        "a second, at least 20; with method=literal 20",
         0, 64),
     property<Settings, &Settings::isSubpixel>(
         "subpixel",

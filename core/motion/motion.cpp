@@ -27,6 +27,8 @@ constexpr int64_t stepBetween(FrameTime earlier, FrameTime later) {
 
 constexpr int furthestShift(const Params& params, Size size, int64_t stepNs) {
   if (params.maxShiftPx > 0) return std::min(params.maxShiftPx, kMostShift);
+  // Of which the cost grows with the square of it.
+  if (params.method == Method::Literal) return kLeastUsualShift;
   constexpr int64_t kSecondNs = 1'000'000'000;
   const int64_t inStep = size.height * std::min(stepNs, kSecondNs) / kSecondNs;
   return static_cast<int>(std::clamp<int64_t>(inStep, kLeastUsualShift, kMostShift));

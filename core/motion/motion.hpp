@@ -60,8 +60,9 @@ enum class Method : uint8_t {
 };
 
 struct Params {
-  int maxShiftPx = 0;      ///< Searched in both directions of both axes. 1 … 64; 0 = as far as a
-                           ///< thing of the frame's height in a second gets, 20 … 64.
+  int maxShiftPx = 0;      ///< Searched in both directions of both axes. 1 … 64; 0 = as far as
+                           ///< what crosses the frame's height in a second gets, 20 … 64; 20 by
+                           ///< Method::Literal.
   bool isSubpixel = true;  ///< False: the best whole-pixel shifts, of no neighbour's influence.
                            ///< Of Method::Refined.
   Method method = Method::Refined;

@@ -78,10 +78,11 @@ TEST(RegionMotion, SearchesAsFarAsThingsGetBetweenTwoFrames) {
     return graphOf(labels, segmentation::Scope::Foreground);
   };
   constexpr int64_t kMs = 1'000'000;
+  motion::Params params{.isSubpixel = false};
   const auto finds = [&](int dx, FrameTime earlier, FrameTime later) {
     const auto stage = motion::makeStage(contextWith(1));
-    EXPECT_TRUE(stage->process(graphAt(0), {.isSubpixel = false}, earlier));
-    const auto motion = *stage->process(graphAt(dx), {.isSubpixel = false}, later);
+    EXPECT_TRUE(stage->process(graphAt(0), params, earlier));
+    const auto motion = *stage->process(graphAt(dx), params, later);
     return motion->regions[0].dx == dx * motion::kMotionUnit;
   };
   EXPECT_TRUE(finds(20, {5 * kMs, true}, {6 * kMs, true}));
@@ -92,6 +93,9 @@ TEST(RegionMotion, SearchesAsFarAsThingsGetBetweenTwoFrames) {
   EXPECT_FALSE(finds(65, {INT64_MIN, true}, {INT64_MAX, true}));
   EXPECT_FALSE(finds(21, {5 * kMs, true}, {505 * kMs, false}));
   EXPECT_FALSE(finds(21, {505 * kMs, true}, {5 * kMs, true}));
+  params.method = motion::Method::Literal;
+  EXPECT_TRUE(finds(20, {5 * kMs, true}, {505 * kMs, true}));
+  EXPECT_FALSE(finds(21, {5 * kMs, true}, {505 * kMs, true}));
 }
 
 motion::RegionMotion search(const Picture& previous, const Picture& current,
