@@ -46,6 +46,15 @@ std::pair<uint64_t, uint64_t> idsOf(const objects::Objects& objects, Point left)
   return isFirst ? std::pair<uint64_t, uint64_t>{1, 2} : std::pair<uint64_t, uint64_t>{2, 1};
 }
 
+/// How many of the objects share more than so many percent with a box, of what the two cover.
+int64_t countAt(const objects::Objects& objects, const Box& box, int percent) {
+  return std::count_if(
+      objects.objects.begin(), objects.objects.end(), [&](const objects::Object& object) {
+        return objects::isListed(object.state) &&
+               100 * intersect(object.box, box).area() > percent * unite(object.box, box).area();
+      });
+}
+
 void expectAt(const objects::Objects& objects, uint64_t id, Point corner, const char* when,
               int step) {
   const objects::Object* object = find(objects, id);
@@ -175,15 +184,7 @@ TEST(HiddenObjects, TwoThatCameInAboveEachOtherArePartedOnceTheyMoveApart) {
     const Body upper{{-46 + 3 * i, 84, 30, 36}, kRed}, lower{{-36 + 2 * i, 124, 36, 36}, kBlue};
     objects = scene.show({upper, lower});
     if (i < 60) continue;
-    for (const Box& box : {upper.box, lower.box})
-      EXPECT_EQ(std::count_if(objects->objects.begin(), objects->objects.end(),
-                              [&](const objects::Object& object) {
-                                return objects::isListed(object.state) &&
-                                       2 * intersect(object.box, box).area() >
-                                           unite(object.box, box).area();
-                              }),
-                1)
-          << i;
+    for (const Box& box : {upper.box, lower.box}) EXPECT_EQ(countAt(*objects, box, 50), 1) << i;
   }
 }
 
@@ -199,15 +200,7 @@ TEST(HiddenObjects, WhatLostAPartThatGoesOnByItselfIsNoLargerThanWhatIsLeft) {
       EXPECT_NEAR(objects->objects[0].box.height, 72, 4);
     }
     if (i < 40) continue;
-    for (const Box& box : {upper.box, lower.box})
-      EXPECT_EQ(std::count_if(objects->objects.begin(), objects->objects.end(),
-                              [&](const objects::Object& object) {
-                                return objects::isListed(object.state) &&
-                                       4 * intersect(object.box, box).area() >
-                                           3 * unite(object.box, box).area();
-                              }),
-                1)
-          << i;
+    for (const Box& box : {upper.box, lower.box}) EXPECT_EQ(countAt(*objects, box, 75), 1) << i;
   }
 }
 
