@@ -116,11 +116,9 @@ struct Numbers {
     Number steadySamples{12};  ///< Frames over which a speed is steady.
     Number centreSamples{31};  ///< Frames over which the middle of its pixels is learnt.
     Number rigidSway{20};      ///< 1/256 of its size by which a rigid box changes; strides do more.
-    Number leastHeight{3, 4};  ///< What is about of a size has so much of its height,
-    Number mostHeight{5, 4};
-    Number leastWidth{1, 2};  ///< and its width: legs and arms change it more.
-    Number mostWidth{3, 2};
-    Number cutRigid{11, 12};  ///< Of a rigid thing's width: less lacks an end.
+    Number offHeight{1, 4};    ///< What is about of a size is off its height by no more,
+    Number offWidth{1, 2};     ///< nor its width: legs and arms change it more.
+    Number cutRigid{11, 12};   ///< Of a rigid thing's width: less lacks an end.
     Number cutOther{10, 12};
     Number cutOneEnd{1, 4};     ///< The end that is there is off by less than that of the other.
     Number othersShare{1, 5};   ///< Of its box, owned by others: it isn't seen whole.
@@ -196,8 +194,7 @@ struct Numbers {
 
   /// Sizes that are learnt.
   struct Sizes {
-    Number least{4, 5};  ///< A size that is seen is the track's between these.
-    Number most{5, 4};
+    Number off{1, 5};           ///< Of the larger: so far a size that is seen is off the track's.
     Number rigidSamples{24};    ///< Frames over which a size is learnt of what is rigid,
     Number uniformSamples{12};  ///< where all are of one size,
     Number otherSamples{4};     ///< and of others.

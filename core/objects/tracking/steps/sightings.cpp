@@ -11,9 +11,8 @@ constexpr int kUnit = kPositionUnit;
 
 /// Whether a box is about of a size; legs and arms change a width more than anything a height.
 bool isLike(const Box& box, const Extent& size, const Numbers::Place& n) {
-  const int64_t height = box.height * int64_t{kUnit}, width = box.width * int64_t{kUnit};
-  return height >= n.leastHeight * size.height && height <= n.mostHeight * size.height &&
-         width >= n.leastWidth * size.width && width <= n.mostWidth * size.width;
+  return std::abs(int64_t{box.height} * kUnit - size.height) <= n.offHeight * size.height &&
+         std::abs(int64_t{box.width} * kUnit - size.width) <= n.offWidth * size.width;
 }
 
 /// Whether a box lacks an end of what is expected there.

@@ -84,7 +84,8 @@ void learnSize(size_t index, int64_t stepNs, const GroupGrid& e, TrackerState& s
   if (!s.isWhole || !track.isSeen) return;
   const Numbers::Sizes& n = state.numbers.sizes;
   const auto isOtherThan = [&](int px, int64_t size) {
-    return px * kUnit < n.least * size || px * kUnit > n.most * size;
+    const int64_t seen = int64_t{px} * kUnit;
+    return std::abs(seen - size) > n.off * std::max(seen, size);
   };
   const Extent& size = track.size;
   const bool isOther =
