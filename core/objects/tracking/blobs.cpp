@@ -2,6 +2,7 @@
 #include "core/objects/tracking/blobs.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace rg::objects {
 
@@ -39,6 +40,13 @@ void Blobs::findOwners(const GroupGrid& e, std::span<const FitTask> tasks,
   }
   for (uint16_t& sole : soleTrack_)
     if (sole == kSeveral) sole = 0;
+}
+
+void Blobs::exchange(size_t a, size_t b) {
+  const bool isAloneA = isAlone(a), isAloneB = isAlone(b);
+  std::swap(blobOf_[a], blobOf_[b]);
+  if (isAloneA) soleTrack_[blobOf_[b]] = static_cast<uint16_t>(b + 1);
+  if (isAloneB) soleTrack_[blobOf_[a]] = static_cast<uint16_t>(a + 1);
 }
 
 bool Blobs::isOwned(uint32_t number) const {

@@ -10,7 +10,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace rg::objects {
@@ -38,7 +37,7 @@ class Blobs {
     return has(track) && soleTrack_[blobOf_[track]] == track + 1;
   }
   [[nodiscard]] bool isOwned(uint32_t number) const;
-  void exchange(size_t a, size_t b) { std::swap(blobOf_[a], blobOf_[b]); }
+  void exchange(size_t a, size_t b);
 
  private:
   std::vector<Piece> blobs_;

@@ -32,14 +32,23 @@ uint64_t parentOf(const Newcomer& newcomer, const TrackerState& state) {
   return parent;
 }
 
-/// How much a newcomer looks like a track. What comes out of a blob that a missing track went into
-/// may also be the other one of the two; who is who is judged later.
-int likeness(const Track& track, const Newcomer& newcomer, const Encounters& encounters,
-             const TrackerState& state) {
-  const int own = similarity(track.look, newcomer.appearance);
-  const Track* other = state.find(parentOf(newcomer, state));
-  if (!other || !encounters.contains(track.id, other->id)) return own;
-  return std::max(own, similarity(other->look, newcomer.appearance));
+/// The track that was missing is where the young one was seen, which ends.
+void takePlace(size_t index, size_t young, TrackerState& state) {
+  Track &track = state.tracks[index], &other = state.tracks[young];
+  track.x = other.x;
+  track.foot = other.foot;
+  track.speedX = other.speedX;
+  track.speedY = other.speedY;
+  track.isSeen = true;
+  track.isWhole = other.isWhole;
+  track.isStanding = other.isStanding;
+  track.unseenNs = 0;
+  countUp(track.hits);
+  other.isOver = true;
+  std::swap(state.sightings[index], state.sightings[young]);
+  state.blobs.exchange(index, young);
+  for (uint16_t& owner : state.owner)
+    if (owner == young + 1) owner = static_cast<uint16_t>(index + 1);
 }
 
 void begin(const Newcomer& newcomer, TrackerState& state) {
@@ -75,26 +84,50 @@ void begin(const Newcomer& newcomer, TrackerState& state) {
 
 }  // namespace
 
+/// Newcomers, and then tracks that nobody has been told of yet.
+void Returns::findCandidates(const std::vector<Newcomer>& newcomers, const TrackerState& state) {
+  missing_.clear();
+  young_.clear();
+  for (size_t i = 0; i < state.tracks.size(); ++i) {
+    const Track& track = state.tracks[i];
+    if (!track.isSeen)
+      missing_.push_back(i);
+    else if (!track.isConfirmed)
+      young_.push_back(i);
+  }
+  candidates_.clear();
+  for (const Newcomer& newcomer : newcomers)
+    candidates_.push_back({newcomer.cells > 0 ? newcomer.box : Box{}, &newcomer.appearance,
+                           parentOf(newcomer, state), UINT64_MAX});
+  for (const size_t i : young_) {
+    const Track& track = state.tracks[i];
+    candidates_.push_back(
+        {track.box(), &track.look, track.parents.empty() ? 0 : track.parents.front(), track.id});
+  }
+}
+
 void Returns::settle(const GroupGrid& e, const Encounters& encounters, Newcomers& newcomers,
                      TrackerState& state) {
   const std::vector<Newcomer>& list = newcomers.list();
   std::vector<int>& trackOf = newcomers.tracks();
-  missing_.clear();
-  for (size_t i = 0; i < state.tracks.size(); ++i)
-    if (!state.tracks[i].isSeen) missing_.push_back(i);
-  costs_.assign(missing_.size() * list.size(), kForbidden);
-  for (size_t m = 0; m < missing_.size(); ++m)
-    for (size_t n = 0; n < list.size(); ++n)
-      if (list[n].cells > 0)
-        costs_[m * list.size() + n] = costOf(state.tracks[missing_[m]], list[n], encounters, state);
-  assignment_.solve(costs_, static_cast<int>(missing_.size()), static_cast<int>(list.size()),
+  findCandidates(list, state);
+  costs_.clear();
+  for (const size_t m : missing_)
+    for (const Candidate& candidate : candidates_)
+      costs_.push_back(costOf(state.tracks[m], candidate, encounters, state));
+  assignment_.solve(costs_, static_cast<int>(missing_.size()), static_cast<int>(candidates_.size()),
                     state.numbers.identity.leaveOut.whole());
   trackOf.assign(list.size(), -1);
   for (size_t m = 0; m < missing_.size(); ++m) {
-    const int n = assignment_.columnOf(static_cast<int>(m));
-    if (n < 0) continue;
-    comeBack(list[static_cast<size_t>(n)], state, state.tracks[missing_[m]]);
-    trackOf[static_cast<size_t>(n)] = static_cast<int>(missing_[m]);
+    const int column = assignment_.columnOf(static_cast<int>(m));
+    if (column < 0) continue;
+    const auto n = static_cast<size_t>(column);
+    if (n >= list.size()) {
+      takePlace(missing_[m], young_[n - list.size()], state);
+      continue;
+    }
+    comeBack(list[n], state, state.tracks[missing_[m]]);
+    trackOf[n] = static_cast<int>(missing_[m]);
   }
   for (size_t n = 0; n < list.size(); ++n) {
     if (list[n].cells == 0 || trackOf[n] >= 0 || state.tracks.size() >= kMaxTracks) continue;
@@ -104,18 +137,29 @@ void Returns::settle(const GroupGrid& e, const Encounters& encounters, Newcomers
   newcomers.giveCells(e, state);
 }
 
-/// 0 … 2000, or kForbidden: how unlikely it is that the newcomer is the track that is missing.
-int64_t Returns::costOf(const Track& track, const Newcomer& newcomer, const Encounters& encounters,
-                        const TrackerState& state) {
-  const int64_t x = (2 * int64_t{newcomer.box.x} + newcomer.box.width) * kUnit / 2;
-  const int64_t foot = int64_t{newcomer.box.bottom()} * kUnit;
+/// 0 … 2000, or kForbidden: how unlikely it is that the candidate is the track that is missing.
+int64_t Returns::costOf(const Track& track, const Candidate& candidate,
+                        const Encounters& encounters, const TrackerState& state) {
+  const Box& box = candidate.box;
+  // One whom nobody knows takes nobody's place.
+  const bool isYoung = candidate.id != UINT64_MAX;
+  if (box.isEmpty() || track.id > candidate.id || (isYoung && !track.isConfirmed))
+    return kForbidden;
+  const int64_t x = (2 * int64_t{box.x} + box.width) * kUnit / 2;
+  const int64_t foot = int64_t{box.bottom()} * kUnit;
   const int64_t dx = x - track.x, dy = foot - track.foot;
   const uint32_t far = integerSqrt(static_cast<uint64_t>(dx * dx + dy * dy));
   const Numbers::Identity& n = state.numbers.identity;
   const int64_t growth = n.gateGrowth.of(track.size.height * (track.unseenNs / 1'000'000)) / 1000;
   const int64_t gate = std::max<int64_t>(1, n.gate.of(track.size.height) + growth);
   if (far > gate) return kForbidden;
-  const int64_t alike = state.weighed(likeness(track, newcomer, encounters, state));
+  // What comes out of a blob that the track went into may also be the other one of the two; who is
+  // who is judged later.
+  int likeness = similarity(track.look, *candidate.look);
+  if (const Track* other = state.find(candidate.parent))
+    if (encounters.contains(track.id, other->id))
+      likeness = std::max(likeness, similarity(other->look, *candidate.look));
+  const int64_t alike = state.weighed(likeness);
   if (track.isConfirmed && alike < n.alike * kFullMatch) return kForbidden;
   return 1000 * int64_t{far} / gate + 1000 - 1000 * alike / kFullMatch;
 }
