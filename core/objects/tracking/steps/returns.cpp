@@ -84,7 +84,8 @@ void begin(const Newcomer& newcomer, TrackerState& state) {
 
 }  // namespace
 
-/// Newcomers, and then tracks that nobody has been told of yet.
+/// Newcomers, and then tracks that nobody has been told of yet. Before a moving camera who isn't
+/// seen may stand: nobody has taken that place.
 void Returns::findCandidates(const std::vector<Newcomer>& newcomers, const TrackerState& state) {
   missing_.clear();
   young_.clear();
@@ -92,7 +93,7 @@ void Returns::findCandidates(const std::vector<Newcomer>& newcomers, const Track
     const Track& track = state.tracks[i];
     if (!track.isSeen)
       missing_.push_back(i);
-    else if (!track.isConfirmed)
+    else if (!track.isConfirmed && !state.showsMovers)
       young_.push_back(i);
   }
   candidates_.clear();
