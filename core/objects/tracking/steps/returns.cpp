@@ -32,18 +32,22 @@ uint64_t parentOf(const Newcomer& newcomer, const TrackerState& state) {
   return parent;
 }
 
+void seeAgain(Track& track, const Place& place) {
+  track.x = static_cast<int32_t>(place.x);
+  track.foot = static_cast<int32_t>(place.foot);
+  track.isSeen = true;
+  track.unseenNs = 0;
+  countUp(track.hits);
+}
+
 /// The track that was missing is where the young one was seen, which ends.
 void takePlace(size_t index, size_t young, TrackerState& state) {
   Track &track = state.tracks[index], &other = state.tracks[young];
-  track.x = other.x;
-  track.foot = other.foot;
+  seeAgain(track, {other.x, other.foot});
   track.speedX = other.speedX;
   track.speedY = other.speedY;
-  track.isSeen = true;
   track.isWhole = other.isWhole;
   track.isStanding = other.isStanding;
-  track.unseenNs = 0;
-  countUp(track.hits);
   other.isOver = true;
   std::swap(state.sightings[index], state.sightings[young]);
   state.blobs.exchange(index, young);
@@ -172,12 +176,7 @@ void Returns::comeBack(const Newcomer& newcomer, const TrackerState& state, Trac
   Place place{(2 * int64_t{newcomer.box.x} + newcomer.box.width) * kUnit / 2,
               int64_t{newcomer.box.bottom()} * kUnit};
   if (isPart) place = placeOfPart(track, newcomer.box, state.frame);
-  const int64_t x = place.x, foot = place.foot;
-  track.x = static_cast<int32_t>(x);
-  track.foot = static_cast<int32_t>(foot);
-  track.isSeen = true;
-  track.unseenNs = 0;
-  countUp(track.hits);
+  seeAgain(track, place);
 }
 
 }  // namespace rg::objects
