@@ -48,6 +48,7 @@ void takePlace(size_t index, size_t young, TrackerState& state) {
   track.speedY = other.speedY;
   track.isWhole = other.isWhole;
   track.isStanding = other.isStanding;
+  other.isSeen = false;  // No other step takes the two for one body.
   other.isOver = true;
   std::swap(state.sightings[index], state.sightings[young]);
   state.blobs.exchange(index, young);

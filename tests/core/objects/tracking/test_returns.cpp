@@ -42,6 +42,11 @@ class Returns : public ::testing::Test {
     state_.blobs.findOwners(evidence_, {}, state_.owner, state_.tracks.size());
     returns_.settle(evidence_, encounters_, newcomers_, state_);
   }
+  void expectNoSuccessor() {
+    settle();
+    EXPECT_FALSE(state_.tracks[0].isSeen);
+    EXPECT_FALSE(state_.tracks[1].isOver);
+  }
   objects::GroupGrid evidence_;
   objects::TrackerState state_;
   objects::Encounters encounters_;
@@ -60,37 +65,30 @@ TEST_F(Returns, AMissingTrackTakesThePlaceOfItsSuccessor) {
   EXPECT_EQ(state_.sightings[0].cells, 2u);
   EXPECT_EQ(state_.owner, (std::vector<uint16_t>{1, 1}));
   EXPECT_TRUE(young.isOver);
+  EXPECT_FALSE(young.isSeen);
   EXPECT_FALSE(young.isConfirmed);  // Its end is not told.
 }
 
 TEST_F(Returns, WhoLooksOtherwiseIsSomebodyElse) {
   begin({80, 102, 24, 60}, kBright);
-  settle();
-  EXPECT_FALSE(state_.tracks[0].isSeen);
-  EXPECT_FALSE(state_.tracks[1].isOver);
+  expectNoSuccessor();
 }
 
 TEST_F(Returns, WhoIsFarAwayIsSomebodyElse) {
   begin({40, 102, 24, 60}, kDark);
-  settle();
-  EXPECT_FALSE(state_.tracks[0].isSeen);
-  EXPECT_FALSE(state_.tracks[1].isOver);
+  expectNoSuccessor();
 }
 
 TEST_F(Returns, WhoWasToldOfStays) {
   begin({80, 102, 24, 60}, kDark);
   state_.tracks[1].isConfirmed = true;
-  settle();
-  EXPECT_FALSE(state_.tracks[0].isSeen);
-  EXPECT_FALSE(state_.tracks[1].isOver);
+  expectNoSuccessor();
 }
 
 TEST_F(Returns, WhomNobodyWasToldOfTakesNobodysPlace) {
   begin({80, 102, 24, 60}, kDark);
   state_.tracks[0].isConfirmed = false;
-  settle();
-  EXPECT_FALSE(state_.tracks[0].isSeen);
-  EXPECT_FALSE(state_.tracks[1].isOver);
+  expectNoSuccessor();
 }
 
 TEST_F(Returns, TheNearerOfTwoIsTheSuccessor) {
