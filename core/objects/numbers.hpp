@@ -95,20 +95,26 @@ struct Numbers {
     Number fewColour{1, 100};  ///< nothing; one less below.
   } fit;
 
-  /// Whose the cells are beyond the fitted boxes.
-  struct Cells {
+  /// Blobs that a track gives up (core/objects/tracking/ownership/parted_tracks.hpp).
+  struct Parting {
     Number besideColumns{1, 2};  ///< Blobs beside each other share no more of their columns,
     Number besideHeight{1, 2};   ///< and the other one is at least so high.
     Number parted = ms(500);     ///< What was one may be hidden in its middle, but not for so long.
     Number partCells{1, 4};      ///< Something above or below is a thing, not a part, if so large,
     Number partOffset{1, 2};     ///< and has moved by half of this share of the lesser width.
-    Number limit{1, 4};          ///< A track of known size ends so far beyond its box.
-    Number strideSide{1, 3};     ///< Of a box's width, that an arm or a stride sticks out by,
-    Number strideAbove{1, 6};    ///< and of its height.
-    Number groupShare{1, 2};     ///< Of a group, that makes the rest of it a track's own.
-    Number uniformShare{3, 5};   ///< Of a group, that shows where a track is: sizes are known,
-    Number loneShare{19, 20};    ///< and not.
-  } cells;
+  } parting;
+
+  /// The energy of whose a part of a region is (core/objects/tracking/ownership/
+  /// track_terminals.hpp), in weights of a prediction, and of the appearance.
+  struct Ownership {
+    Number place{3};       ///< What a part inside of a track's box gains, in predictions.
+    Number outside{1};     ///< What it loses just outside of it, in those of the place,
+    Number most{2};        ///< and far away.
+    Number spread{1, 16};  ///< Of its size, by which a thing's ends are off their places at least,
+    Number sways{4};       ///< or so many times what it sways by.
+    Number portrait{8};    ///< What a part gains that agrees with its portrait, and
+    Number colour{4};      ///< what one in its own colours, in weights of the appearance.
+  } ownership;
 
   /// Where a track is, and how fast.
   struct Place {

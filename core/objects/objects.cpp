@@ -3,7 +3,6 @@
 
 #include "core/base/memory/operations_source.hpp"
 #include "core/base/memory/pool.hpp"
-#include "core/base/pixel.hpp"
 #include "core/base/renewed_stage.hpp"
 #include "core/base/time/time.hpp"
 #include "core/objects/merge/ground_merge.hpp"
@@ -19,7 +18,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 namespace rg::objects {
@@ -39,8 +37,9 @@ class ObjectStage final : public Stage {
   void inherit(TrackerLegacy&& legacy) noexcept { tracker_.inherit(std::move(legacy)); }
 
  private:
-  void mergeRegions(const Input& in, const Params& params, int64_t stepNs, Objects& objects);
-  void mergeByEnergy(const motion::Motion& motion, const MergeWeights& weights, Objects& objects);
+  MergeInput mergeRegions(const Input& in, const Params& params, int64_t stepNs, Objects& objects);
+  MergeInput mergeByEnergy(const motion::Motion& motion, const MergeWeights& weights,
+                           int64_t stepNs, Objects& objects);
   void nameGroups(const motion::Motion& shown, Objects& objects);
   void expectLabels(const graph::Graph& graph, int64_t stepNs, Objects& objects);
   void startGroups();
@@ -129,17 +128,16 @@ void ObjectStage::startGroups() {
     groupOf_[r] = expected_[r] ? expected_[r].index() : tracks + r;
 }
 
-void ObjectStage::mergeRegions(const Input& in, const Params& params, int64_t stepNs,
-                               Objects& objects) {
+MergeInput ObjectStage::mergeRegions(const Input& in, const Params& params, int64_t stepNs,
+                                     Objects& objects) {
   const motion::Motion& motion = *in.motion;
   const graph::Graph& graph = *motion.graph;
   const MergeWeights weights = weightsOf(params, graph.size, stepNs);
   const bool isStill = graph.labels->scope != segmentation::Scope::Frame;
-  const bool isMoving = !isStill && motion.status != Status::Skipped;
-  if (isMoving) objects.setCamera(motion.camera);
+  if (!isStill && motion.status != Status::Skipped) objects.setCamera(motion.camera);
   if (isStill || params.method == Method::Literal) movers_.reset();
   expectLabels(graph, stepNs, objects);
-  if (params.method == Method::Literal) return mergeByEnergy(motion, weights, objects);
+  if (params.method == Method::Literal) return mergeByEnergy(motion, weights, stepNs, objects);
   if (isStill) {
     followTrends(motion, *context_.cpu, trends_, trend_, params.numbers.layers);
   } else {
@@ -167,11 +165,12 @@ void ObjectStage::mergeRegions(const Input& in, const Params& params, int64_t st
   }
   nameGroups(shown, objects);
   markBackground(in, objects);
+  return {shown, weights, stepNs};
 }
 
 /// Method::Literal.
-void ObjectStage::mergeByEnergy(const motion::Motion& motion, const MergeWeights& weights,
-                                Objects& objects) {
+MergeInput ObjectStage::mergeByEnergy(const motion::Motion& motion, const MergeWeights& weights,
+                                      int64_t stepNs, Objects& objects) {
   trends_.reset();
   weighArcs(motion, expected_, weights, objects.arcs);
   startGroups();
@@ -181,10 +180,12 @@ void ObjectStage::mergeByEnergy(const motion::Motion& motion, const MergeWeights
   isBackground_.assign(groups_.size(), 0);
   objects.groundGroup = largestGroup(groups_, motion.size);
   objects.setCamera({});
-  if (!objects.groundGroup) return;
-  isBackground_[objects.groundGroup.index()] = 1;
-  const Group& ground = groups_[objects.groundGroup.index()];
-  objects.setCamera(CameraMotion(Point{ground.dx, ground.dy}));
+  if (objects.groundGroup) {
+    isBackground_[objects.groundGroup.index()] = 1;
+    const Group& ground = groups_[objects.groundGroup.index()];
+    objects.setCamera(CameraMotion(Point{ground.dx, ground.dy}));
+  }
+  return {motion, weights, stepNs};
 }
 
 void ObjectStage::nameGroups(const motion::Motion& shown, Objects& objects) {
@@ -374,9 +375,9 @@ Result<std::shared_ptr<const Objects>> ObjectStage::process(Input in, const Para
     tracker_.takeEvents(false, objects->events);
     return std::shared_ptr<const Objects>(objects);
   }
-  mergeRegions(in, params, stepNs, *objects);
+  const MergeInput merged = mergeRegions(in, params, stepNs, *objects);
   gatherEvidence(*graph, params.numbers, *objects);
-  tracker_.update(evidence_, groups_, stepNs, tracking, *context_.cpu);
+  tracker_.update(evidence_, merged, tracking, *context_.cpu);
   givePixels(*graph, *objects);
   describe(*graph, time.isKnown, *objects);
   nameRegions(*graph, *objects);

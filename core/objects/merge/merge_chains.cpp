@@ -73,7 +73,7 @@ class ChainSearch {
     for (const WeightedArc& arc : s_.arcsOf(node)) {
       const uint32_t group = groupOf_[arc.b];
       hasMotive |= group == groupOf_[node] ? arc.weight < 0 : arc.weight > 0;
-      if (group == groupOf_[node] || s_.seen[group] == node) continue;
+      if (group == groupOf_[node] || s_.seen[group] == node || arc.weight == kNever) continue;
       s_.seen[group] = node;
       s_.touched.push_back(group);
     }

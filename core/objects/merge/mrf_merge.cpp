@@ -137,33 +137,46 @@ MergeWeights weightsOf(const Params& params, Size frame, int64_t stepNs) {
   return weights;
 }
 
+ArcWeigher::ArcWeigher(Size frame, const MergeWeights& weights)
+    : weights_(weights),
+      threshold2_(int64_t{weights.motionThreshold} * weights.motionThreshold),
+      mostExcess_(weights.numbers.mostExcess.of(threshold2_)),
+      halfContrast_(weights.numbers.halfContrast.whole()),
+      halfColour_(weights.numbers.halfColour.whole()),
+      arcUnit_(weights.numbers.arcLength.of(
+          weights.arc * int64_t{integerSqrt(static_cast<uint64_t>(frame.area()))})) {}
+
+int64_t ArcWeigher::motion(const motion::RegionMotion& v, const motion::RegionMotion& u,
+                           int64_t rootArea) const {
+  const int64_t dx = v.dx - u.dx, dy = v.dy - u.dy;
+  const int64_t excess = std::clamp(dx * dx + dy * dy - threshold2_, int64_t{0}, mostExcess_);
+  const int64_t pull = std::min(v.reliability, u.reliability) * rootArea;
+  return weights_.motion * (pull * excess / threshold2_) / motion::kFullReliability;
+}
+
+int64_t ArcWeigher::border(uint32_t borderPx, uint32_t meanContrast) const {
+  return int64_t{weights_.border} * borderPx * halfContrast_ / (halfContrast_ + meanContrast);
+}
+
+int64_t ArcWeigher::arc(graph::Colour a, graph::Colour b) const {
+  return arcUnit_ * halfColour_ / (halfColour_ + graph::difference(a, b));
+}
+
 void weighArcs(const motion::Motion& motion, std::span<const TrackIndex> predicted,
                const MergeWeights& weights, std::vector<ArcEnergy>& energies) {
   const graph::Graph& graph = *motion.graph;
-  const int64_t threshold2 = int64_t{weights.motionThreshold} * weights.motionThreshold;
-  const Numbers::Energy& n = weights.numbers;
-  const int64_t halfContrast = n.halfContrast.whole(), halfColour = n.halfColour.whole();
-  const int64_t mostExcess = n.mostExcess.of(threshold2);
-  const int64_t arcUnit =
-      n.arcLength.of(weights.arc * int64_t{integerSqrt(static_cast<uint64_t>(graph.size.area()))});
+  const ArcWeigher weigher(graph.size, weights);
   energies.clear();
   energies.reserve(graph.arcs.size());
   for (const graph::Arc& arc : graph.arcs) {
     const uint32_t s = arc.a.index(), t = arc.b.index();
-    const motion::RegionMotion &v = motion.regions[s], &u = motion.regions[t];
-    const int64_t dx = v.dx - u.dx, dy = v.dy - u.dy;
-    const int64_t excess = std::clamp(dx * dx + dy * dy - threshold2, int64_t{0}, mostExcess);
-    const int64_t rootArea =
-        integerSqrt(std::min(graph.regions[s].areaPx, graph.regions[t].areaPx));
-    const int64_t pull = std::min(v.reliability, u.reliability) * rootArea;
+    const graph::Region &a = graph.regions[s], &b = graph.regions[t];
+    const int64_t rootArea = integerSqrt(std::min(a.areaPx, b.areaPx));
     const bool isPredicted = !predicted.empty() && predicted[s] && predicted[s] == predicted[t];
-    energies.push_back(
-        {.motion = weights.motion * (pull * excess / threshold2) / motion::kFullReliability,
-         .border = int64_t{weights.border} * arc.borderPx * halfContrast /
-                   (halfContrast + arc.meanContrast()),
-         .arc = arcUnit * halfColour /
-                (halfColour + graph::difference(graph.regions[s].colour, graph.regions[t].colour)),
-         .prediction = isPredicted ? weights.prediction * rootArea : 0});
+    energies.push_back({.motion = weigher.motion(motion.regions[s], motion.regions[t], rootArea),
+                        .border = weigher.border(arc.borderPx, arc.meanContrast()),
+                        .arc = weigher.arc(a.colour, b.colour),
+                        .prediction = isPredicted ? weigher.prediction(rootArea) : 0});
   }
 }
 

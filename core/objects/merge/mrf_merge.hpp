@@ -61,6 +61,9 @@ struct WeightedArc {
   friend constexpr bool operator==(const WeightedArc&, const WeightedArc&) = default;
 };
 
+/// The weight of an arc between two that are never in one group: more than all others together say.
+inline constexpr int64_t kNever = -(int64_t{1} << 40);
+
 /// Working memory that keeps its capacity from frame to frame.
 struct MergeScratch {
   std::vector<uint32_t> alternative;  ///< A second partition, to compare with.
@@ -112,6 +115,27 @@ struct Group {
   int64_t weight = 0;  ///< Sum of area x reliability.
   int64_t sumX = 0;    ///< Of the pixels' places, in 1/256 px.
   int64_t sumY = 0;
+};
+
+/// What arcs between things in frames of one size add to U.
+class ArcWeigher {
+ public:
+  ArcWeigher(Size frame, const MergeWeights& weights);
+  /// U1 of two that move so, the lesser of which has an area of that root, in pixels.
+  [[nodiscard]] int64_t motion(const motion::RegionMotion& v, const motion::RegionMotion& u,
+                               int64_t rootArea) const;
+  /// U2 of a border.
+  [[nodiscard]] int64_t border(uint32_t borderPx, uint32_t meanContrast) const;
+  /// U3 of two of such colours.
+  [[nodiscard]] int64_t arc(graph::Colour a, graph::Colour b) const;
+  /// Of what is expected to be one object.
+  [[nodiscard]] int64_t prediction(int64_t rootArea) const {
+    return weights_.prediction * rootArea;
+  }
+
+ private:
+  const MergeWeights& weights_;
+  int64_t threshold2_, mostExcess_, halfContrast_, halfColour_, arcUnit_;
 };
 
 /// What each of the graph's arcs adds to U. predicted: of each region the track that it is expected

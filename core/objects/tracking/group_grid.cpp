@@ -69,6 +69,7 @@ void gather(const graph::Graph& graph, std::span<const GroupIndex> groupOf,
   const auto cells = static_cast<size_t>(e.grid.area());
   e.group.assign(cells, 0);
   e.bin.assign(cells, kUnknownBin);
+  e.region.resize(cells);
   e.expected.resize(cells);
   e.cellsOf.assign(isBackground.size(), 0);
   const Picture* picture = e.picture = graph.picture.get();
@@ -81,6 +82,7 @@ void gather(const graph::Graph& graph, std::span<const GroupIndex> groupOf,
       if (count == 0) continue;
       const size_t first = e.at(found.begin, found.y);
       std::fill_n(e.group.data() + first, count, static_cast<uint16_t>(group.number()));
+      std::fill_n(e.region.data() + first, count, static_cast<uint16_t>(region + 1));
       std::fill_n(e.expected.data() + first, count,
                   static_cast<uint16_t>(expectedOf[region].number()));
       e.cellsOf[group.index()] += static_cast<uint32_t>(count);

@@ -23,7 +23,8 @@ struct GroupGrid {
   Size frame;
   const Picture* picture = nullptr;  ///< Of this frame; null where there is none.
   Size grid;
-  std::vector<uint16_t> group;  ///< Of each cell: 1 + group, 0 = background. Row by row.
+  std::vector<uint16_t> group;   ///< Of each cell: 1 + group, 0 = background. Row by row.
+  std::vector<uint16_t> region;  ///< Of each cell: 1 + its region, where group is not 0.
   std::vector<uint8_t>
       bin;  ///< Colour bin (core/objects/tracking/looks/appearance.hpp), where group is not 0.
   std::vector<uint16_t> expected;  ///< Of each cell: 1 + the track that its region is predicted to

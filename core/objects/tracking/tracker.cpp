@@ -46,8 +46,9 @@ void Tracker::begin(const GroupGrid& e, int64_t stepNs) {
   }
 }
 
-void Tracker::update(const GroupGrid& evidence, std::span<const Group> groups, int64_t stepNs,
+void Tracker::update(const GroupGrid& evidence, const MergeInput& input,
                      const TrackerParams& params, const Executor& executor) {
+  const int64_t stepNs = input.stepNs;
   state_.numbers = params.numbers;
   state_.appearance = params.appearance;
   life_.events().clear();
@@ -56,8 +57,8 @@ void Tracker::update(const GroupGrid& evidence, std::span<const Group> groups, i
   state_.blobs.find(evidence, !state_.scale.isUniform());
   state_.blobs.findOwners(evidence, state_.tasks, state_.owner, state_.tracks.size());
   portraits_.place(evidence, stepNs, executor, state_);
-  owners_.shareBlobs(evidence, state_);
-  owners_.giveGroups(evidence, groups, state_);
+  parted_.find(evidence, state_);
+  terminals_.decide(evidence, input, parted_.partedFrom(), state_);
   countCells(evidence, state_);
   newcomers_.find(evidence, params.minAreaPx, state_);
   sight(evidence, state_);

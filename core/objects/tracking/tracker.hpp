@@ -10,7 +10,8 @@
 #pragma once
 
 #include "core/objects/tracking/looks/track_portraits.hpp"
-#include "core/objects/tracking/steps/cell_owners.hpp"
+#include "core/objects/tracking/ownership/parted_tracks.hpp"
+#include "core/objects/tracking/ownership/track_terminals.hpp"
 #include "core/objects/tracking/steps/companies.hpp"
 #include "core/objects/tracking/steps/encounters.hpp"
 #include "core/objects/tracking/steps/newcomers.hpp"
@@ -19,7 +20,6 @@
 #include "core/objects/tracking/steps/track_life.hpp"
 
 #include <cstdint>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -42,8 +42,8 @@ class Tracker {
   void inherit(TrackerLegacy&& legacy) noexcept;
   /// A frame that shows nothing: tracks move on as they are expected to.
   void predict(int64_t stepNs, const TrackerParams& params);
-  void update(const GroupGrid& evidence, std::span<const Group> groups, int64_t stepNs,
-              const TrackerParams& params, const Executor& executor);
+  void update(const GroupGrid& evidence, const MergeInput& input, const TrackerParams& params,
+              const Executor& executor);
 
   [[nodiscard]] const TrackerState& state() const { return state_; }
   [[nodiscard]] const std::vector<Track>& tracks() const { return state_.tracks; }
@@ -62,7 +62,8 @@ class Tracker {
   TrackerState state_;
   TrackFit fit_;
   TrackPortraits portraits_;
-  CellOwners owners_;
+  PartedTracks parted_;
+  TrackTerminals terminals_;
   Newcomers newcomers_;
   Encounters encounters_;
   Returns returns_;

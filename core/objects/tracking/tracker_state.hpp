@@ -25,8 +25,9 @@ struct Sighting {
   bool isWhole = false;        ///< `box` shows all of it.
   bool isMatched = false;      ///< Its portrait was found.
   uint32_t share = 0;          ///< Of the portrait that was found, in 1/256.
-  Box box;                     ///< Pixels, around the groups that it owns.
-  uint64_t areaPx = 0;         ///< Of those groups.
+  uint16_t group = 0;          ///< Of the largest part that it owns, as in GroupGrid.
+  Box box;                     ///< Pixels, around all that it owns.
+  uint64_t areaPx = 0;         ///< Of that.
   int64_t sumX = 0, sumY = 0;  ///< Of the places of their pixels, in 1/256 px.
   LookCounts look;
   Point corner;   ///< Of the portrait that was found, in pixels.

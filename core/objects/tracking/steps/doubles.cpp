@@ -16,9 +16,7 @@ bool areOneBody(const TrackerState& state, const GroupGrid& e, size_t a, size_t 
   const Track &p = state.tracks[a], &q = state.tracks[b];
   const Box first = p.box(), second = q.box(), both = unite(first, second);
   const int columns = std::min(first.right(), second.right()) - std::max(first.x, second.x);
-  if (state.blobs.has(a) && state.blobs.has(b) &&
-      areApart(e, state.blobs.of(a).group, state.blobs.of(b).group))
-    return false;
+  if (areApart(e, state.sightings[a].group, state.sightings[b].group)) return false;
   if (std::min(p.apartNs, q.apartNs) >= n.doubled.whole()) return false;
   if (state.outgrows(p, both) || state.outgrows(q, both)) return false;
   if (!state.scale.isUniform() && state.blobs.has(a) && state.blobs.areTogether(a, b)) return true;
