@@ -166,7 +166,7 @@ run_soak() {
   fi
   if ((is_short)); then
     "$build/tests/stress/soak" --frames 40000 --scene typical
-    "$build/tests/stress/soak" --frames 20000 --scene cuts
+    "$build/tests/stress/soak" --frames 40000 --scene cuts
     "$build/tests/stress/soak" --frames 20000 --scene empty
     return
   fi
