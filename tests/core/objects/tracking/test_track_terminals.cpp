@@ -48,6 +48,13 @@ class TrackTerminals : public ::testing::Test {
     return labels_->count - 1;
   }
 
+  /// A region that surely moves by so many pixels to the right in a frame.
+  void paintMoving(const Box& box, int px) {
+    const size_t region = paint(box);
+    motions_[region].dx = px * motion::kMotionUnit;
+    motions_[region].reliability = motion::kFullReliability;
+  }
+
   /// One of known size that stands and is expected in `box`.
   objects::Track& add(const Box& box) {
     objects::Track track;
@@ -186,9 +193,7 @@ TEST_F(TrackTerminals, ColoursTellWhoseItIs) {
 }
 
 TEST_F(TrackTerminals, MotionTellsWhoseItIs) {
-  const size_t region = paint(kBody);
-  motions_[region].dx = 4 * motion::kMotionUnit;
-  motions_[region].reliability = motion::kFullReliability;
+  paintMoving(kBody, 4);
   add(kBody);
   add(kBody).speedX = 4 * kUnit * 25;
   decide();
@@ -196,9 +201,7 @@ TEST_F(TrackTerminals, MotionTellsWhoseItIs) {
 }
 
 TEST_F(TrackTerminals, OfOneThatIsNewNoMotionIsKnown) {
-  const size_t region = paint(kBody);
-  motions_[region].dx = 40 * motion::kMotionUnit;
-  motions_[region].reliability = motion::kFullReliability;
+  paintMoving(kBody, 40);
   add(kBody).hits = 1;
   decide();
   EXPECT_EQ(ownerOf(kBody), 1);
