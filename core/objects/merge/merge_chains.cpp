@@ -22,6 +22,7 @@ class ChainSearch {
     s_.groupSize.assign(groupOf.size(), 0);
     for (const uint32_t group : groupOf) ++s_.groupSize[group];
     s_.seen.assign(groupOf.size(), kNone);
+    noteChanges();
     findHub();
   }
 
@@ -29,23 +30,46 @@ class ChainSearch {
     bool hasMoved = false;
     for (uint32_t node = 0; node < groupOf_.size(); ++node) {
       if (!listTargets(node)) continue;
+      bool isMoved = false;
       // A chain may change the group of `node`; what was listed holds only as long as none did.
-      for (size_t i = 0; i < s_.touched.size(); ++i) {
+      for (size_t i = 0; i < s_.touched.size() && !isMoved; ++i) {
+        if (failsAsBefore(node, s_.touched[i])) continue;
         if (s_.visits >= s_.visitLimit) {
           s_.isCutShort = true;
           return hasMoved;
         }
-        if (tryChain(node, s_.touched[i])) {
-          hasMoved = true;
-          break;
-        }
+        isMoved = tryChain(node, s_.touched[i]);
       }
+      if (!isMoved) s_.triedAt[node] = s_.chainTime;
+      hasMoved |= isMoved;
     }
     return hasMoved;
   }
 
  private:
   void spend(size_t visits) { s_.visits += visits; }
+
+  /// What happened to the groups since the last search.
+  void noteChanges() {
+    const size_t count = groupOf_.size();
+    if (s_.searched.size() != count) {
+      s_.triedAt.assign(count, 0);
+      s_.changedAt.assign(count, 1);
+      s_.chainTime = 1;
+      return;
+    }
+    ++s_.chainTime;
+    for (size_t node = 0; node < count; ++node)
+      if (s_.searched[node] != groupOf_[node])
+        s_.changedAt[s_.searched[node]] = s_.changedAt[groupOf_[node]] = s_.chainTime;
+  }
+
+  /// A chain looks at nothing but two groups: as long as those stay as they were, so does what it
+  /// gains.
+  [[nodiscard]] bool failsAsBefore(uint32_t node, uint32_t to) const {
+    const uint32_t triedAt = s_.triedAt[node];
+    return triedAt >= s_.changedAt[groupOf_[node]] && triedAt >= s_.changedAt[to];
+  }
 
   /// The node with most arcs, and how much it is pulled towards each group. It is a neighbour of
   /// so many that its arcs can't be walked anew for each of them.
@@ -166,6 +190,7 @@ class ChainSearch {
     for (size_t i = length; i > kept; --i)
       move(chain_[i - 1], groupOf_[chain_[i - 1]] == from ? to : from);
     if (kept == 0) return false;
+    s_.changedAt[from] = s_.changedAt[to] = ++s_.chainTime;
     for (const uint32_t group : {from, to})
       if (s_.groupSize[group] == 0) empty_.add(group);
     return true;
@@ -181,7 +206,9 @@ class ChainSearch {
 }  // namespace
 
 bool moveChains(std::vector<uint32_t>& groupOf, MergeScratch& scratch) {
-  return ChainSearch(groupOf, scratch).run();
+  const bool hasMoved = ChainSearch(groupOf, scratch).run();
+  scratch.searched = groupOf;
+  return hasMoved;
 }
 
 }  // namespace rg::objects

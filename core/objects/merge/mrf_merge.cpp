@@ -102,6 +102,7 @@ uint32_t splitAndNumber(std::span<const WeightedArc> arcs, MergeScratch& s,
 
 void improve(uint64_t mostVisits, MergeScratch& s, std::vector<uint32_t>& groupOf) {
   s.visitLimit = s.visits + mostVisits;
+  s.searched.clear();
   contract(s, groupOf);
   for (int restart = 0; restart < kMaxRestarts; ++restart) {
     const bool hasMoved = moveNodes(groupOf, s);

@@ -92,6 +92,10 @@ struct MergeScratch {
   std::vector<uint8_t> notedAt;  ///< Of each node the length of the chain that it was met at, or 0.
   std::vector<int64_t> gain;     ///< Of those, by changing between the chain's two groups.
   std::vector<uint32_t> noted;
+  std::vector<uint32_t> searched;   ///< The partition that chains left, empty before the first.
+  std::vector<uint32_t> triedAt;    ///< When no chain from a node gained anything; 0: never.
+  std::vector<uint32_t> changedAt;  ///< When a group last got or lost a node.
+  uint32_t chainTime = 0;
   uint64_t visits = 0;               ///< Of arcs, by the chains.
   uint64_t visitLimit = UINT64_MAX;  ///< No chain begins beyond it.
   bool isCutShort = false;           ///< Chains were left out for that, or the contraction was

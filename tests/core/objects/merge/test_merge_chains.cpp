@@ -105,6 +105,33 @@ Groups plainChains(const Arcs& arcs, Groups groupOf) {
   return groupOf;
 }
 
+/// What moveNodes() and contract() might do between two searches.
+void stir(Groups& groupOf, uint32_t seed) {
+  const auto nodes = static_cast<uint32_t>(groupOf.size());
+  for (uint32_t i = 0; i < 3; ++i)
+    groupOf[mixHash(seed, i, 7) % nodes] = groupOf[mixHash(seed, i, 8) % nodes];
+}
+
+TEST(MergeChains, WhatIsLeftOutGainedNothingBeforeAndWouldNotNow) {
+  for (uint32_t seed = 0; seed < 20; ++seed) {
+    const uint32_t side = 4 + 5 * (seed % 2), nodes = side * side + 1;
+    const Arcs arcs = wallWithSpecks(side, seed);
+    objects::MergeScratch scratch = scratchOf(nodes, arcs), forgetful = scratch;
+    Groups groupOf = someGroups(nodes, seed), expected = groupOf;
+    for (uint32_t search = 0; search < 8; ++search) {
+      forgetful.searched.clear();
+      EXPECT_EQ(objects::moveChains(groupOf, scratch), objects::moveChains(expected, forgetful));
+      ASSERT_EQ(groupOf, expected) << "seed " << seed << ", search " << search;
+      if (search % 2 == 1) stir(groupOf, seed + 100 * search);
+      expected = groupOf;
+    }
+    while (objects::moveChains(groupOf, scratch)) continue;
+    const uint64_t before = scratch.visits;
+    EXPECT_FALSE(objects::moveChains(groupOf, scratch));
+    EXPECT_LE(scratch.visits - before, scratch.neighbours.size());
+  }
+}
+
 TEST(MergeChains, AreThoseOfSumsMadeAnewAtEachStep) {
   for (uint32_t seed = 0; seed < 6; ++seed) {
     const uint32_t side = 4 + 5 * (seed % 2), nodes = side * side + 1;  // The wall is a hub at 9.
