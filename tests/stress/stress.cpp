@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Frames through each chain while other threads set and read every property and ask for the
 // latency, in an order that a printed seed decides. Run under ThreadSanitizer by tests/campaign.sh.
-//
-// usage: stress [--pushes N] [--size WxH] [--seed S]
-//        stress --races N    only N tasks of an executor that race, which ThreadSanitizer must tell
 #include "core/base/memory/executor.hpp"
 #include "core/base/pixel.hpp"
 #include "tests/fuzz/moving_scene.hpp"
 #include "tests/fuzz/set_property.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cinttypes>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <ctime>
+#include <iterator>
+#include <string>
+#include <string_view>
 #include <thread>
 
 namespace rg::stress {
@@ -35,6 +35,13 @@ constexpr const char* kChains[] = {
     "regiontrack threads=1 ! regionoverlay",
 };
 
+constexpr char kUsage[] =
+    "usage: stress [--pushes N] [--size WxH] [--seed S] [--chain LINE]\n"
+    "       stress --races N\n"
+    "  --pushes  frames to each chain (default 3000)\n"
+    "  --chain   only those whose line begins so, as \"bgremove threads=1\"\n"
+    "  --races   only so many tasks of an executor that race, which ThreadSanitizer must tell\n";
+
 constexpr guint kMostShift = 2;
 constexpr int kTurnsOfFrame = 2;  // Properties set, elements asked.
 
@@ -42,6 +49,8 @@ struct Options {
   int pushes = 3000;
   int width = 64, height = 48;
   uint32_t seed = static_cast<uint32_t>(std::time(nullptr));
+  std::string chain;  ///< What their lines begin with.
+  int races = 0;
 };
 
 /// Bytes without end, for what takes bytes.
@@ -162,6 +171,7 @@ void run(const char* line, const Options& options) {
   out += countOut(chain);
   std::printf("%d pushed, %" PRIu64 " came out, %" PRIu64 " refused: %.40s ...\n", options.pushes,
               out, refused, line);
+  std::fflush(stdout);
   if (out + refused != static_cast<uint64_t>(options.pushes) || untold > 0) std::exit(1);
 }
 
@@ -175,27 +185,45 @@ void race(int tasks) {
   std::printf("%d tasks raced: %" PRId64 "\n", tasks, sum);
 }
 
+bool parse(int argc, char** argv, Options& options) {
+  for (int i = 1; i < argc; i += 2) {
+    const std::string name = argv[i];
+    if (i + 1 == argc) return false;
+    const char* value = argv[i + 1];
+    bool isRead = false;
+    if (name == "--races") isRead = std::sscanf(value, "%d", &options.races) == 1;
+    if (name == "--pushes") isRead = std::sscanf(value, "%d", &options.pushes) == 1;
+    if (name == "--seed") isRead = std::sscanf(value, "%" SCNu32, &options.seed) == 1;
+    if (name == "--size")
+      isRead = std::sscanf(value, "%dx%d", &options.width, &options.height) == 2;
+    if (name == "--chain") {
+      options.chain = value;
+      isRead = std::any_of(std::begin(kChains), std::end(kChains),
+                           [&](std::string_view line) { return line.starts_with(value); });
+    }
+    if (!isRead) return false;
+  }
+  return true;
+}
+
 }  // namespace
 }  // namespace rg::stress
 
 int main(int argc, char** argv) {
   using namespace rg;
   stress::Options options;
-  for (int i = 1; i + 1 < argc; i += 2) {
-    if (std::strcmp(argv[i], "--races") == 0) {
-      stress::race(std::atoi(argv[i + 1]));
-      return 0;
-    }
-    if (std::strcmp(argv[i], "--pushes") == 0) options.pushes = std::atoi(argv[i + 1]);
-    if (std::strcmp(argv[i], "--seed") == 0)
-      options.seed = static_cast<uint32_t>(std::strtoul(argv[i + 1], nullptr, 10));
-    if (std::strcmp(argv[i], "--size") == 0 &&
-        std::sscanf(argv[i + 1], "%dx%d", &options.width, &options.height) != 2)
-      return 2;
+  if (!stress::parse(argc, argv, options)) {
+    std::fputs(stress::kUsage, stderr);
+    return 2;
   }
-  std::printf("seed %u\n", options.seed);
+  if (options.races > 0) {
+    stress::race(options.races);
+    return 0;
+  }
+  std::printf("seed %" PRIu32 "\n", options.seed);
   gst_init(nullptr, nullptr);
   testing::registerElements();
-  for (const char* line : stress::kChains) stress::run(line, options);
+  for (const std::string_view line : stress::kChains)
+    if (line.starts_with(options.chain)) stress::run(line.data(), options);
   return 0;
 }
