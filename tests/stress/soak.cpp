@@ -35,6 +35,7 @@ constexpr char kMovingChain[] =
     "hsvsegment threads=1 ! srg threads=1 ! prmmotion threads=1 ! mrfmerge threads=1 ! "
     "regionwrite location=/dev/null contours=true drop=false";
 constexpr int kMostScenes = 10;     // Among ever other ones one always needs most so far.
+constexpr int kRestFrames = 75;     // After 50 whoever isn't seen has ended.
 constexpr size_t kShare = 8;        // Of all points, those that are compared with one.
 constexpr double kMostSlope = 1.0;  // Bytes in 1000 frames.
 
@@ -63,10 +64,11 @@ struct Kind {
   int lifeFrames;
   uint8_t things, noise, pan;
 };
+constexpr uint8_t kCalm = 6;  // Grey levels of noise.
 constexpr Kind kKinds[] = {
-    {"typical", kChain, 150, 4, 6, 0}, {"noise", kChain, 150, 4, 255, 0},
-    {"cuts", kChain, 8, 6, 6, 0},      {"pan", kMovingChain, 150, 4, 6, 12},
-    {"empty", kChain, 150, 0, 6, 0},
+    {"typical", kChain, 150, 4, kCalm, 0}, {"noise", kChain, 150, 4, 255, 0},
+    {"cuts", kChain, 8, 6, kCalm, 0},      {"pan", kMovingChain, 150, 4, kCalm, 12},
+    {"empty", kChain, 150, 0, kCalm, 0},
 };
 
 /// The median of the slopes between points that are at most a share of all apart, in bytes a frame.
@@ -94,11 +96,12 @@ bool run(const Kind& kind, const Options& options) {
   const Caps caps{"I420", options.width, options.height};
   const GstVideoInfo info = caps.info();
   Chain chain(kind.chain, caps);
-  // The warm-up is at least two rounds of the scenes. What is in use goes up and down with the
-  // things in view, so a point is the least of a round: what is never given back is in that too.
+  // What is in use goes up and down with the things in view, so a round of scenes ends with a calm
+  // and empty one, and a point is the least of that: what is never given back is in that too. The
+  // warm-up is at least two rounds.
   const int warmUp = options.warmUp < 0 ? options.frames / 5 : options.warmUp;
-  const int scenes = std::clamp(warmUp / (2 * kind.lifeFrames), 1, kMostScenes);
-  const int round = scenes * kind.lifeFrames;
+  const int scenes = std::clamp((warmUp / 2 - kRestFrames) / kind.lifeFrames, 1, kMostScenes);
+  const int restFrom = scenes * kind.lifeFrames, round = restFrom + kRestFrames;
   std::vector<std::pair<double, double>> points;
   // It lies on the heap that it measures.
   points.reserve(static_cast<size_t>((options.frames - warmUp) / round) + 1);
@@ -106,19 +109,22 @@ bool run(const Kind& kind, const Options& options) {
   size_t least = kNone;
   fuzz::MovingScene scene = describe(0, kind.things, kind.noise, kind.pan);
   for (int i = 0; i < options.frames; ++i) {
-    if (i % kind.lifeFrames == 0)
-      scene = describe(static_cast<uint32_t>(i / kind.lifeFrames % scenes), kind.things, kind.noise,
-                       kind.pan);
+    const int at = i % round;
+    if (at == restFrom)
+      scene = describe(0, 0, kCalm, 0);
+    else if (at < restFrom && at % kind.lifeFrames == 0)
+      scene =
+          describe(static_cast<uint32_t>(at / kind.lifeFrames), kind.things, kind.noise, kind.pan);
     testing::BufferPtr buffer = fuzz::paintScene(scene, info);
     scene.advance();
     GST_BUFFER_PTS(buffer.get()) = static_cast<GstClockTime>(i) * 40 * GST_MSECOND;
     if (!chain.pass(std::move(buffer))) return false;
     while (chain.message(GST_MESSAGE_ANY)) {
     }
-    if (options.lostBytes && i % round == 0) lose(options.lostBytes);
-    if (i < warmUp) continue;
+    if (options.lostBytes && at == 0) lose(options.lostBytes);
+    if (i < warmUp || at < restFrom) continue;
     least = std::min(least, bytesInUse());
-    if ((i - warmUp) % round == round - 1) points.emplace_back(i, std::exchange(least, kNone));
+    if (at == round - 1) points.emplace_back(i, std::exchange(least, kNone));
   }
   if (points.size() < 2) {
     std::printf("%s: --frames %d is too few, %d at least\n", kind.name, options.frames,
