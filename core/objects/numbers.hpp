@@ -62,19 +62,13 @@ struct Numbers {
     Number followed = ms(600);  ///< What has been seen for so long was there before.
   } parallax;
 
-  /// How regions have moved so far, and groups in which two things move apart.
+  /// How regions have moved so far.
   struct Layers {
-    Number trendFrames{8};    ///< That a trend remembers.
-    Number trendAlike{28};    ///< 1/16 px per frame by which a vector may be off its trend.
-    Number halfReliable{6};   ///< Reliability of a vector that counts half.
-    Number leastDrift{24};    ///< 1/16 px per frame by which the trends of two things differ,
-    Number keptDrift{12};     ///< of what was two before,
-    Number moversDrift{6};    ///< and of things before a moving camera.
-    Number smallShare{1, 3};  ///< A smaller one's motion is off by more, as the share is smaller.
-    Number leastTrust{60};    ///< Of kFullReliability: less says nothing of a thing.
-    Number stillDrift{8};     ///< 1/16 px per frame by which something may be off that stands.
-    Number stackedColumns{1, 2};  ///< A leg shares most of its columns with its body,
-    Number stackedRows{2, 5};     ///< and few of its rows.
+    Number trendFrames{8};   ///< That a trend remembers.
+    Number trendAlike{28};   ///< 1/16 px per frame by which a vector may be off its trend.
+    Number halfReliable{6};  ///< Reliability of a vector that counts half.
+    Number leastTrust{60};   ///< Of kFullReliability: less says nothing of a thing.
+    Number stillDrift{8};    ///< 1/16 px per frame by which something may be off that stands.
   } layers;
 
   /// Fitting boxes of known sizes (core/objects/tracking/box_fit.hpp), in gains of a cell.
@@ -97,11 +91,8 @@ struct Numbers {
 
   /// Blobs that a track gives up (core/objects/tracking/ownership/parted_tracks.hpp).
   struct Parting {
-    Number besideColumns{1, 2};  ///< Blobs beside each other share no more of their columns,
-    Number besideHeight{1, 2};   ///< and the other one is at least so high.
-    Number parted = ms(500);     ///< What was one may be hidden in its middle, but not for so long.
-    Number partCells{1, 4};      ///< Something above or below is a thing, not a part, if so large,
-    Number partOffset{1, 2};     ///< and has moved by half of this share of the lesser width.
+    Number partCells{1, 4};   ///< Something above or below is a thing, not a part, if so large,
+    Number partOffset{1, 2};  ///< and has moved by half of this share of the lesser width.
   } parting;
 
   /// The energy of whose a part of a region is (core/objects/tracking/ownership/
@@ -136,7 +127,6 @@ struct Numbers {
     Number firstGain{16}, firstSpeed{14};  ///< 1/16 of what is off, of the first two sightings,
     Number earlyGain{14}, earlySpeed{8};   ///< the next two,
     Number wholeGain{11}, wholeSpeed{4};   ///< one that is seen whole,
-    Number matchGain{8}, matchSpeed{1};    ///< matched in part,
     Number soleGain{8}, soleSpeed{1};      ///< in a blob of its own,
     Number otherGain{8}, otherSpeed{2};    ///< and otherwise.
     Number slowing{1, 2};  ///< A speed off its steady one by less is noise of the last moment.

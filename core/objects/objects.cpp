@@ -6,7 +6,6 @@
 #include "core/base/renewed_stage.hpp"
 #include "core/base/time/time.hpp"
 #include "core/objects/merge/ground_merge.hpp"
-#include "core/objects/merge/motion_layers.hpp"
 #include "core/objects/merge/motion_trends.hpp"
 #include "core/objects/merge/mrf_merge.hpp"
 #include "core/objects/movers.hpp"
@@ -18,6 +17,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <utility>
 
 namespace rg::objects {
@@ -48,8 +48,8 @@ class ObjectStage final : public Stage {
                    std::vector<GroundEnergy>& energies);
   void markSurroundings(const Input& in, const Objects& objects);
   void markBackground(const Input& in, const Objects& objects);
-  void gatherEvidence(const graph::Graph& graph, const Numbers& numbers, const Objects& objects);
-  void markKnown(const graph::Graph& graph, const Objects& objects);
+  void gatherEvidence(const graph::Graph& graph, const Numbers::Layers& numbers,
+                      const Objects& objects);
   void givePixels(const graph::Graph& graph, Objects& objects);
   void describe(const graph::Graph& graph, bool hasTime, Objects& objects);
   void nameRegions(const graph::Graph& graph, Objects& objects);
@@ -69,7 +69,6 @@ class ObjectStage final : public Stage {
   std::vector<Point> shifts_;            ///< Of each track, pixels.
   RegionOwnerScratch ownerScratch_;
   std::vector<Group> groups_;
-  std::vector<uint32_t> mainPx_;  ///< Of each group: its largest region that is expected there.
   std::vector<uint8_t> isBackground_;
   std::vector<int32_t> majority_;  ///< Of each group: foreground samples less the others.
   Movers movers_;                  ///< Under Scope::Frame.
@@ -82,7 +81,6 @@ class ObjectStage final : public Stage {
   std::vector<ObjectSums> sums_;
   MotionTrends trends_;
   motion::Motion trend_;  ///< What they say of this frame's regions; where the camera stands.
-  LayerScratch layerScratch_;
   Pool<Objects> pool_;
   FrameTime last_;
   bool hasLast_ = false;
@@ -161,7 +159,6 @@ MergeInput ObjectStage::mergeRegions(const Input& in, const Params& params, int6
   } else {
     listArcs(graph, objects.arcs, arcs_);
     minimise(static_cast<uint32_t>(graph.regions.size()), arcs_, mergeScratch_, groupOf_);
-    partGroups(trend_, expected_, layerScratch_, groupOf_, params.numbers.layers);
   }
   nameGroups(shown, objects);
   markBackground(in, objects);
@@ -312,33 +309,16 @@ void ObjectStage::nameRegions(const graph::Graph& graph, Objects& objects) {
     if (regionOwner_[r]) objects.regionObject[r] = trackAt(regionOwner_[r]).id;
 }
 
-void ObjectStage::gatherEvidence(const graph::Graph& graph, const Numbers& numbers,
+void ObjectStage::gatherEvidence(const graph::Graph& graph, const Numbers::Layers& numbers,
                                  const Objects& objects) {
   gather(graph, objects.regionGroup, isBackground_, expected_, evidence_);
-  evidence_.numbers = numbers.layers;
   evidence_.camera = objects.camera;
   evidence_.showsMovers = graph.labels->scope == segmentation::Scope::Frame;
-  evidence_.motionOf.clear();
-  evidence_.trustOf.clear();
-  for (const Group& group : groups_) {
-    evidence_.motionOf.push_back({group.dx, group.dy});
-    if (!evidence_.showsMovers) evidence_.trustOf.push_back(group.reliability);
-  }
-  markKnown(graph, objects);
-}
-
-/// Groups are known as what their largest region is expected to be.
-void ObjectStage::markKnown(const graph::Graph& graph, const Objects& objects) {
-  std::vector<uint8_t>& isKnown = evidence_.isKnown;
-  isKnown.assign(groups_.size(), 0);
-  if (evidence_.showsMovers) return;
-  mainPx_.assign(groups_.size(), 0);
-  for (size_t r = 0; r < expected_.size(); ++r) {
-    const uint32_t group = objects.regionGroup[r].index(), areaPx = graph.regions[r].areaPx;
-    if (!expected_[r] || areaPx <= mainPx_[group]) continue;
-    mainPx_[group] = areaPx;
-    isKnown[group] = tracker_.state().isFaithful(trackAt(expected_[r]));
-  }
+  evidence_.isStill.clear();
+  for (const Group& group : groups_)
+    evidence_.isStill.push_back(
+        !evidence_.showsMovers && group.reliability >= numbers.leastTrust.whole() &&
+        std::abs(group.dx) + std::abs(group.dy) < numbers.stillDrift.whole());
 }
 
 Result<std::shared_ptr<const Objects>> ObjectStage::process(Input in, const Params& params,
@@ -376,7 +356,7 @@ Result<std::shared_ptr<const Objects>> ObjectStage::process(Input in, const Para
     return std::shared_ptr<const Objects>(objects);
   }
   const MergeInput merged = mergeRegions(in, params, stepNs, *objects);
-  gatherEvidence(*graph, params.numbers, *objects);
+  gatherEvidence(*graph, params.numbers.layers, *objects);
   tracker_.update(evidence_, merged, tracking, *context_.cpu);
   givePixels(*graph, *objects);
   describe(*graph, time.isKnown, *objects);

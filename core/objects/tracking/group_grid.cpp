@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "core/objects/tracking/group_grid.hpp"
 
-#include "core/objects/merge/motion_layers.hpp"
 #include "core/objects/tracking/looks/appearance.hpp"
 #include "core/simd/base/run_rows.hpp"
 
@@ -56,10 +55,6 @@ void findBins(const Picture& picture, const Run& cells, GroupGrid& e) {
   }
 }
 
-bool isTrusted(const GroupGrid& e, uint16_t group) {
-  return !e.trustOf.empty() && e.trustOf[group - 1u] >= e.numbers.leastTrust.whole();
-}
-
 }  // namespace
 
 void gather(const graph::Graph& graph, std::span<const GroupIndex> groupOf,
@@ -71,7 +66,6 @@ void gather(const graph::Graph& graph, std::span<const GroupIndex> groupOf,
   e.bin.assign(cells, kUnknownBin);
   e.region.resize(cells);
   e.expected.resize(cells);
-  e.cellsOf.assign(isBackground.size(), 0);
   const Picture* picture = e.picture = graph.picture.get();
   for (size_t region = 0; region < groupOf.size(); ++region) {
     const GroupIndex group = groupOf[region];
@@ -85,36 +79,10 @@ void gather(const graph::Graph& graph, std::span<const GroupIndex> groupOf,
       std::fill_n(e.region.data() + first, count, static_cast<uint16_t>(region + 1));
       std::fill_n(e.expected.data() + first, count,
                   static_cast<uint16_t>(expectedOf[region].number()));
-      e.cellsOf[group.index()] += static_cast<uint32_t>(count);
       if (picture) findBins(*picture, found, e);
     }
   }
   e.listRuns();
-}
-
-bool areApart(const GroupGrid& e, uint16_t a, uint16_t b) {
-  if (a == b || a == 0 || b == 0 || e.motionOf.empty()) return false;
-  if (!e.showsMovers && !(isTrusted(e, a) && isTrusted(e, b))) return false;
-  const auto moverOf = [&](uint16_t group) {
-    const Point v = e.motionOf[group - 1u];
-    const int64_t cells = e.cellsOf[group - 1u];
-    return Mover{v.x, v.y, e.showsMovers ? cells : cells * e.trustOf[group - 1u]};
-  };
-  const Number least = e.showsMovers ? e.numbers.moversDrift : e.numbers.leastDrift;
-  return moveApart(moverOf(a), moverOf(b), least.whole(), e.numbers.smallShare);
-}
-
-bool areStrangersApart(const GroupGrid& e, uint16_t a, uint16_t b) {
-  const auto isKnown = [&](uint16_t group) {
-    return group != 0 && !e.isKnown.empty() && e.isKnown[group - 1u] != 0;
-  };
-  return !isKnown(a) && !isKnown(b) && areApart(e, a, b);
-}
-
-bool isKnownToStand(const GroupGrid& e, uint16_t group) {
-  if (group == 0 || !isTrusted(e, group)) return false;
-  const Point v = e.motionOf[group - 1u];
-  return std::abs(v.x) + std::abs(v.y) < e.numbers.stillDrift.whole();
 }
 
 void GroupGrid::listRuns() {

@@ -29,11 +29,8 @@ struct GroupGrid {
       bin;  ///< Colour bin (core/objects/tracking/looks/appearance.hpp), where group is not 0.
   std::vector<uint16_t> expected;  ///< Of each cell: 1 + the track that its region is predicted to
                                    ///< be, 0 = none; where group is not 0.
-  std::vector<uint32_t> cellsOf;   ///< Cells of each group.
-  std::vector<Point> motionOf;     ///< Motion of each group, in 1/16 px; may be empty.
-  std::vector<uint16_t> trustOf;   ///< How reliable that is, in 1/256; empty where groups are
-                                   ///< things (showsMovers).
-  std::vector<uint8_t> isKnown;    ///< Of each group: an object of which the portrait is known.
+  std::vector<uint8_t> isStill;    ///< Of each group: it is known not to move, as what somebody
+                                   ///< uncovered doesn't who was there first.
   std::vector<Run> runs;  ///< Of the cells that are no background, of one group each. Row by
                           ///< row: what walks them costs nothing where nothing is.
   std::vector<uint16_t> runBegins;  ///< Scratch.
@@ -41,10 +38,8 @@ struct GroupGrid {
   /// entry more than there are pixels.
   std::vector<uint16_t> cellFromRow, cellFromColumn;
   CameraMotion camera;  ///< Since the previous frame.
-  /// What stands still is background, whatever it is, and groups are things: two that touch are
-  /// told apart by their motion.
+  /// What stands still is background, whatever it is.
   bool showsMovers = false;
-  Numbers::Layers numbers{};
 
   /// The pixel that cell (x, y) shows.
   [[nodiscard]] Point middleOf(int x, int y) const {
@@ -83,15 +78,5 @@ struct GroupGrid {
 void gather(const graph::Graph& graph, std::span<const GroupIndex> groupOf,
             std::span<const uint8_t> isBackground, std::span<const TrackIndex> expectedOf,
             GroupGrid& evidence);
-
-/// Whether two groups are two things because they move differently, the more so the smaller one is
-/// against the other.
-[[nodiscard]] bool areApart(const GroupGrid& evidence, uint16_t a, uint16_t b);
-
-/// The same where neither is known: what has a portrait is told from others by that.
-[[nodiscard]] bool areStrangersApart(const GroupGrid& evidence, uint16_t a, uint16_t b);
-
-/// Whether a group is known to stand still, as what somebody uncovered does who was there first.
-[[nodiscard]] bool isKnownToStand(const GroupGrid& evidence, uint16_t group);
 
 }  // namespace rg::objects

@@ -42,6 +42,10 @@ uint32_t labelParts(std::span<uint32_t> columns, uint32_t own, uint32_t count,
   return count;
 }
 
+uint16_t groupOf(const Run& run, const GroupGrid& e) {
+  return e.group[e.at(run.begin, run.y)];
+}
+
 /// The parts of the foreground that nobody owns, each of one group.
 void listFree(const GroupGrid& e, std::span<const uint16_t> owner, std::vector<Run>& runs) {
   if (owner.empty()) {
@@ -54,12 +58,11 @@ void listFree(const GroupGrid& e, std::span<const uint16_t> owner, std::vector<R
   });
 }
 
-/// Joins the runs that touch, corners included, unless their groups are apart.
+/// Joins the runs of one group that touch, corners included.
 void joinRuns(const GroupGrid& e, const std::vector<Run>& runs, std::vector<uint32_t>& parent) {
   parent.resize(runs.size());
   const auto tryJoin = [&](uint32_t a, uint32_t b) {
-    const auto groupOf = [&](uint32_t i) { return e.group[e.at(runs[i].begin, runs[i].y)]; };
-    if (!areStrangersApart(e, groupOf(a), groupOf(b))) join(parent, a, b);
+    if (groupOf(runs[a], e) == groupOf(runs[b], e)) join(parent, a, b);
   };
   uint32_t above = 0;  // None before it reaches down to the present run.
   for (uint32_t i = 0; i < runs.size(); ++i) {
@@ -70,13 +73,6 @@ void joinRuns(const GroupGrid& e, const std::vector<Run>& runs, std::vector<uint
       ++above;
     for (uint32_t n = above; runs[n].y < run.y && runs[n].begin <= run.end; ++n) tryJoin(n, i);
   }
-}
-
-/// A run is of one group.
-void noteGroup(const GroupGrid& e, const Run& run, Piece& piece) {
-  if (e.motionOf.empty()) return;
-  const uint16_t group = e.group[e.at(run.begin, run.y)];
-  if (piece.group == 0 || e.cellsOf[group - 1u] > e.cellsOf[piece.group - 1u]) piece.group = group;
 }
 
 }  // namespace
@@ -102,7 +98,7 @@ void findPieces(const GroupGrid& e, std::span<const uint16_t> owner, PieceScratc
     fill(run, s.parent[i] + 1);
     piece.cells += static_cast<uint32_t>(width);
     piece.box = unite(piece.box, {run.begin, run.y, width, 1});
-    noteGroup(e, run, piece);
+    piece.group = groupOf(run, e);
   }
 }
 
@@ -137,7 +133,7 @@ void cutPieces(const GroupGrid& e, PieceScratch& s, std::vector<Piece>& pieces) 
       part.cells += static_cast<uint32_t>(last - first);
       part.box = unite(part.box, {run.begin + static_cast<int>(first), run.y,
                                   static_cast<int>(last - first), 1});
-      noteGroup(e, run, part);
+      part.group = groupOf(run, e);
     }
   }
   pieces.swap(s.cut);

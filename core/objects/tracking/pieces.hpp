@@ -12,11 +12,11 @@
 
 namespace rg::objects {
 
-/// An 8-connected set of cells that belong to no track.
+/// An 8-connected set of cells of one group.
 struct Piece {
   uint32_t cells = 0;
   Box box;             ///< In cells.
-  uint16_t group = 0;  ///< The largest that it has cells of, as in GroupGrid.
+  uint16_t group = 0;  ///< As in GroupGrid.
 };
 
 struct PieceScratch {
@@ -28,8 +28,8 @@ struct PieceScratch {
   std::vector<Piece> cut;
 };
 
-/// The parts of the foreground whose owner is 0; groups that are apart are not of one part. owner:
-/// for each cell 1 + track or 0; empty: nobody owns anything.
+/// The parts of the foreground whose owner is 0: what the energy's minimum parts is of different
+/// pieces. owner: for each cell 1 + track or 0; empty: nobody owns anything.
 void findPieces(const GroupGrid& evidence, std::span<const uint16_t> owner, PieceScratch& scratch,
                 std::vector<Piece>& pieces);
 

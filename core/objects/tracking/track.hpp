@@ -63,7 +63,6 @@ struct Track {
   uint64_t nextCompany = 0;
   int64_t companyNs = 0;           ///< Since nextCompany holds.
   int64_t apartNs = 0;             ///< For how long it was seen in a blob of its own.
-  int64_t partedNs = 0;            ///< Since it consists of several blobs.
   int64_t doubleNs = 0;            ///< Since it looks like a part of another track.
   int32_t partOffset = INT32_MIN;  ///< Between the middles of its blob and of another part above or
                                    ///< below, when they were first seen, in half pixels.

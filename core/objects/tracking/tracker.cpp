@@ -70,7 +70,7 @@ void Tracker::update(const GroupGrid& evidence, const MergeInput& input,
     learnPortrait(i, evidence, state_);
   }
   learnScale(evidence, state_);
-  joinDoubles(evidence, stepNs, state_);
+  joinDoubles(stepNs, state_);
   encounters_.judge(state_);
   companies_.find(stepNs, state_);
   companies_.tell(state_, life_.events());

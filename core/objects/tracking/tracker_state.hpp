@@ -18,14 +18,12 @@ struct Sighting {
   uint32_t cells = 0;          ///< That it owns.
   uint32_t boxCells = 0;       ///< Of its fitted box within the frame.
   uint32_t othersCells = 0;    ///< Of its fitted box that other tracks own.
-  bool isParted = false;       ///< Other blobs beside its own seem to be parts of it.
   bool isCutOff = false;       ///< `box` lacks an end of what is expected there.
   bool isStanding = false;     ///< Its regions show that it doesn't move.
   bool isSole = false;         ///< Nobody else is in its blob.
   bool isWhole = false;        ///< `box` shows all of it.
   bool isMatched = false;      ///< Its portrait was found.
   uint32_t share = 0;          ///< Of the portrait that was found, in 1/256.
-  uint16_t group = 0;          ///< Of the largest part that it owns, as in GroupGrid.
   Box box;                     ///< Pixels, around all that it owns.
   uint64_t areaPx = 0;         ///< Of that.
   int64_t sumX = 0, sumY = 0;  ///< Of the places of their pixels, in 1/256 px.

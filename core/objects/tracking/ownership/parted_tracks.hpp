@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Blobs that a track has cells in, but that are things of their own: beside its own blob, or above
-// it and moving otherwise. It gives them up.
+// Two things above each other that were taken for one when they came in: once one has moved against
+// the other by a quarter of a width, the track gives it up. Parts of a body don't do that.
 //
 // Determinism: counts of cells; the smaller number wins ties.
 #pragma once
@@ -38,10 +38,6 @@ class PartedTracks {
   [[nodiscard]] const std::vector<uint16_t>& partedFrom() const { return partedFrom_; }
 
  private:
-  void partBeside(const GroupGrid& evidence, TrackerState& state);
-  void partStacked(const GroupGrid& evidence, TrackerState& state);
-  void giveUp(size_t cell, TrackerState& state);
-
   std::vector<uint16_t> partedFrom_;
   std::vector<Majority> majorities_;  ///< Of each track: the other blob that it has most cells in.
 };

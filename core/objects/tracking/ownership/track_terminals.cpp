@@ -232,14 +232,10 @@ void TrackTerminals::give(const GroupGrid& e, TrackerState& state) {
   for (size_t track = 1; track < terminals_.size(); ++track)
     if (terminals_[track] != 0)
       trackOf_[groupOf_[terminals_[track]]] = static_cast<uint16_t>(track);
-  largest_.assign(state.tracks.size(), 0);
   for (const RegionParts::PartRun& run : parts_.runs()) {
     const uint16_t owner = trackOf_[groupOf_[run.part]];
     const size_t first = e.at(run.cells.begin, run.cells.y);
     std::fill_n(state.owner.data() + first, run.cells.end - run.cells.begin, owner);
-    if (owner == 0 || parts_.list()[run.part].cells <= largest_[owner - 1u]) continue;
-    largest_[owner - 1u] = parts_.list()[run.part].cells;
-    state.sightings[owner - 1u].group = e.group[first];
   }
 }
 

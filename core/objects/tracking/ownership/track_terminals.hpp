@@ -78,7 +78,6 @@ class TrackTerminals {
   std::vector<uint32_t> component_;
   std::vector<uint16_t> trackOf_;  ///< Of each group: 1 + the track, 0 = none.
   std::vector<uint16_t> ownerOf_;  ///< Of each region the same, or kSeveral.
-  std::vector<uint32_t> largest_;  ///< Of each track, cells.
   MergeScratch scratch_;
 };
 

@@ -11,12 +11,12 @@ constexpr int kUnit = kPositionUnit;
 
 /// Whether two tracks seem to be one body: one of them was hardly ever seen apart, and they lie
 /// above each other as its halves do, or together show no more than one of them should.
-bool areOneBody(const TrackerState& state, const GroupGrid& e, size_t a, size_t b) {
+bool areOneBody(const TrackerState& state, size_t a, size_t b) {
   const Numbers::Life& n = state.numbers.life;
   const Track &p = state.tracks[a], &q = state.tracks[b];
   const Box first = p.box(), second = q.box(), both = unite(first, second);
   const int columns = std::min(first.right(), second.right()) - std::max(first.x, second.x);
-  if (areApart(e, state.sightings[a].group, state.sightings[b].group)) return false;
+  if (state.showsMovers && !state.blobs.areTogether(a, b)) return false;
   if (std::min(p.apartNs, q.apartNs) >= n.doubled.whole()) return false;
   if (state.outgrows(p, both) || state.outgrows(q, both)) return false;
   if (!state.scale.isUniform() && state.blobs.has(a) && state.blobs.areTogether(a, b)) return true;
@@ -48,14 +48,13 @@ void takeLooks(Track& from, Track& to) {
 
 }  // namespace
 
-void joinDoubles(const GroupGrid& e, int64_t stepNs, TrackerState& state) {
+void joinDoubles(int64_t stepNs, TrackerState& state) {
   for (size_t b = 0; b < state.sightings.size(); ++b) {
     Track& track = state.tracks[b];
     if (!track.isSeen) continue;
     size_t partner = b;
     for (size_t a = 0; a < b && partner == b; ++a)
-      if (state.tracks[a].isSeen && !state.tracks[a].isOver && areOneBody(state, e, a, b))
-        partner = a;
+      if (state.tracks[a].isSeen && !state.tracks[a].isOver && areOneBody(state, a, b)) partner = a;
     if (partner == b) {
       track.doubleNs = 0;
       continue;

@@ -11,6 +11,6 @@
 namespace rg::objects {
 
 /// Ends tracks that were one body with an older one for a while.
-void joinDoubles(const GroupGrid& evidence, int64_t stepNs, TrackerState& state);
+void joinDoubles(int64_t stepNs, TrackerState& state);
 
 }  // namespace rg::objects

@@ -35,14 +35,6 @@ bool belongTogether(const Box& a, const Box& b, const SceneScale& scale,
          both.width * kUnit <= n.bodyWidth * expected.width;
 }
 
-/// Whether a newcomer moves otherwise than the track that it comes out of.
-bool comesApart(const TrackerState& state, const GroupGrid& e, const Newcomer& newcomer) {
-  for (size_t t = 0; t < state.sightings.size(); ++t)
-    if (state.tracks[t].id == newcomer.parent)
-      return state.blobs.has(t) && areApart(e, state.blobs.of(t).group, newcomer.group);
-  return false;
-}
-
 }  // namespace
 
 void Newcomers::find(const GroupGrid& e, uint32_t minAreaPx, TrackerState& state) {
@@ -63,13 +55,11 @@ void Newcomers::find(const GroupGrid& e, uint32_t minAreaPx, TrackerState& state
     Newcomer piece;
     piece.box = toPixels(pieces_[i].box, e.stepPx, e.frame);
     piece.cells = pieces_[i].cells;
-    piece.group = pieces_[i].group;
     int host = -1;
     for (size_t n = 0; n < list_.size() && host < 0; ++n)
       if ((state.scale.isUniform() ||
            piece.cells <= state.numbers.newcomers.fragment * list_[n].cells) &&
-          belongTogether(list_[n].box, piece.box, state.scale, state.numbers.newcomers) &&
-          !areApart(e, list_[n].group, piece.group))
+          belongTogether(list_[n].box, piece.box, state.scale, state.numbers.newcomers))
         host = static_cast<int>(n);
     if (host < 0) {
       host = static_cast<int>(list_.size());
@@ -102,7 +92,6 @@ void Newcomers::giveFragments(const GroupGrid& e, TrackerState& state) {
       if (newcomer.cells > state.numbers.newcomers.fragment * blob.cells ||
           !belongTogether(box, newcomer.box, state.scale, state.numbers.newcomers))
         continue;
-      if (areApart(e, blob.group, newcomer.group)) continue;
       if (!e.showsMovers && state.outgrows(state.tracks[t], unite(box, newcomer.box))) continue;
       state.sightings[t].box = unite(state.sightings[t].box, newcomer.box);
       trackOf_[n] = static_cast<int>(t);
@@ -165,8 +154,7 @@ void Newcomers::dropSmall(const GroupGrid& e, uint32_t minAreaPx, const TrackerS
                                        [&](const Track& t) { return t.id == n.parent; });
       if (parent != state.tracks.end() &&
           areaPx * kUnit * kUnit * 256 <
-              (state.isSizeKnown(*parent) || comesApart(state, e, n) ? least.ofKnown
-                                                                     : least.ofParent) *
+              (state.isSizeKnown(*parent) ? least.ofKnown : least.ofParent) *
                   (int64_t{parent->size.width} * parent->size.height * parent->fill))
         return true;
       return areaPx < least.ofFrame * e.frame.area();
@@ -176,7 +164,7 @@ void Newcomers::dropSmall(const GroupGrid& e, uint32_t minAreaPx, const TrackerS
     const int64_t height = n.box.height * int64_t{kUnit}, width = n.box.width * int64_t{kUnit};
     if (n.isAtBorder && n.parent == 0)
       return areaPx < least.atBorder * usual || height < least.atBorderHeight * expected.height;
-    if (n.parent != 0 && !comesApart(state, e, n))
+    if (n.parent != 0)
       return areaPx < least.outOf * usual || height < least.outOfHeight * expected.height ||
              width < least.outOfWidth * expected.width;
     return areaPx < least.alone * usual || height < least.aloneHeight * expected.height ||

@@ -80,7 +80,7 @@ void sight(const GroupGrid& e, TrackerState& state) {
                          (isSole && isLike(s.box, state.scale.at(s.box.bottom()), n)) ||
                          (!state.isSizeKnown(track) && (isSole || hasTheRest(i, state)));
     s.isSole = isSole;
-    s.isStanding = state.blobs.has(i) && isKnownToStand(e, state.blobs.of(i).group);
+    s.isStanding = state.blobs.has(i) && e.isStill[state.blobs.of(i).group - 1u] != 0;
     // People's strides, of which a uniform scene is full, are no reason to distrust a box.
     s.isCutOff = isSole && !state.scale.isUniform() && state.isSizeKnown(track) &&
                  isCutAtOneEnd(track, s.box, state.isRigid(track), n);

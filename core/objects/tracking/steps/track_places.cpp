@@ -25,7 +25,6 @@ Gains gainsOf(const Track& track, const Sighting& s, const Numbers::Place& n) {
   if (track.hits <= 4) return {n.earlyGain, n.earlySpeed};
   if (s.isWhole || (s.isMatched && s.share >= n.sharpShare * kWhole))
     return {n.wholeGain, n.wholeSpeed};
-  if (s.isMatched) return {n.matchGain, n.matchSpeed};
   return s.isSole ? Gains{n.soleGain, n.soleSpeed} : Gains{n.otherGain, n.otherSpeed};
 }
 

@@ -73,7 +73,6 @@ void learnSize(size_t index, int64_t stepNs, const GroupGrid& e, TrackerState& s
   const Sighting& s = state.sightings[index];
   if (track.isSeen && s.isSole) track.apartNs += stepNs;
   if (track.isSeen) track.seenNs += stepNs;
-  track.partedNs = s.isParted ? track.partedNs + stepNs : 0;
   if (!state.scale.isUniform()) {
     findParts(index, e, state);
     if (s.isSole && !s.box.isEmpty() && losesPart(track, state)) return startAnew(s.box, track);

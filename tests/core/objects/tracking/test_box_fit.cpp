@@ -18,7 +18,6 @@ objects::GroupGrid gridWith(Size grid, const std::vector<Box>& foreground, uint8
   for (const Box& box : foreground)
     for (int y = box.y; y < box.bottom(); ++y)
       for (int x = box.x; x < box.right(); ++x) e.group[e.at(x, y)] = 1;
-  e.cellsOf = {static_cast<uint32_t>(std::count(e.group.begin(), e.group.end(), 1))};
   return e;
 }
 

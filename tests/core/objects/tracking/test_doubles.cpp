@@ -26,7 +26,7 @@ class Doubles : public ::testing::Test {
  protected:
   void join() {
     state_.blobs.findOwners(evidence_, {}, state_.owner, state_.tracks.size());
-    objects::joinDoubles(evidence_, 40'000'000, state_);
+    objects::joinDoubles(40'000'000, state_);
   }
   objects::GroupGrid evidence_;
   objects::TrackerState state_;

@@ -94,21 +94,19 @@ TEST(Pieces, TwoThingsThatTouchAreCutAtTheJoint) {
               ElementsAre("11...33.2", "11...33.2", "1133333.2", "11...33.2"));
 }
 
-TEST(Pieces, WhatIsCutKnowsItsGroup) {
-  objects::GroupGrid e = drawn({"##...##.#", "##...##.#", "#######.#", "##...##.#"});
+TEST(Pieces, AreOfOneGroupAlsoWhereTheyAreCut) {
+  objects::GroupGrid e = drawn({"##...####", "##...##.#", "#######.#", "##...##.#"});
   for (int y = 0; y < e.grid.height; ++y)
     for (int x = 0; x < e.grid.width; ++x)
-      if (uint16_t& group = e.group[e.at(x, y)]; group != 0) group = x < 2 ? 1 : x < 8 ? 2 : 3;
+      if (uint16_t& group = e.group[e.at(x, y)]; group != 0) group = x < 7 ? 1 : 2;
   e.listRuns();
-  e.cellsOf = {8, 11, 4};
-  e.motionOf = {{0, 0}, {0, 0}, {0, 0}};
   objects::PieceScratch scratch;
   std::vector<objects::Piece> pieces;
   objects::findPieces(e, {}, scratch, pieces);
   objects::cutPieces(e, scratch, pieces);
   std::vector<int> groups;
   for (const objects::Piece& piece : pieces) groups.push_back(piece.group);
-  EXPECT_THAT(groups, ElementsAre(1, 3, 2));
+  EXPECT_THAT(groups, ElementsAre(1, 2, 1));
 }
 
 TEST(Pieces, ABodyIsNotCutFromItsLegsAndArms) {
@@ -117,28 +115,6 @@ TEST(Pieces, ABodyIsNotCutFromItsLegsAndArms) {
   std::vector<std::string> labels = body;
   for (std::string& row : labels) std::replace(row.begin(), row.end(), '#', '1');
   EXPECT_EQ(cutRows(body), labels);
-}
-
-TEST(Pieces, MoversThatTouchAreApartByTheirMotion) {
-  objects::GroupGrid e = drawn({"####", "####"});
-  for (size_t cell = 0; cell < e.group.size(); ++cell) e.group[cell] = cell % 4 < 2 ? 1 : 2;
-  e.listRuns();
-  e.cellsOf = {4, 4};
-  e.motionOf = {{20, 0}, {30, 0}};
-  const auto count = [&] {
-    objects::PieceScratch scratch;
-    std::vector<objects::Piece> pieces;
-    objects::findPieces(e, {}, scratch, pieces);
-    return pieces.size();
-  };
-  EXPECT_EQ(count(), 1u);
-  e.showsMovers = true;
-  EXPECT_EQ(count(), 2u);
-  e.motionOf[1] = {22, 0};  // Parts of one thing.
-  EXPECT_EQ(count(), 1u);
-  e.motionOf[1] = {30, 0};
-  e.cellsOf = {4, 40};  // A bit of the other.
-  EXPECT_EQ(count(), 1u);
 }
 
 /// The labels of findPieces() by a flood from each cell in raster order.
@@ -159,8 +135,7 @@ std::vector<uint32_t> flooded(const objects::GroupGrid& e, const std::vector<uin
         const Point next{x + i % 3 - 1, y + i / 3 - 1};
         if (!boundsOf(e.grid).contains(next)) continue;
         const size_t other = e.at(next.x, next.y);
-        if (!isFree(other) || labels[other] != 0) continue;
-        if (objects::areApart(e, e.group[cell], e.group[other])) continue;
+        if (!isFree(other) || labels[other] != 0 || e.group[other] != e.group[start]) continue;
         labels[other] = count;
         open.push_back(other);
       }
@@ -174,9 +149,6 @@ TEST(Pieces, AreThoseOfAFloodOnNoiseOfGroupsAndOwners) {
   for (uint32_t seed = 0; seed < 60; ++seed) {
     objects::GroupGrid e;
     e.frame = e.grid = {1 + static_cast<int>(seed * 7 % 40), 1 + static_cast<int>(seed * 3 % 17)};
-    e.showsMovers = seed % 2 == 0;
-    e.cellsOf = {10, 20, 30};
-    e.motionOf = {{0, 0}, {30, 0}, {32, 0}};
     std::vector<uint16_t> owner;
     for (uint32_t i = 0; i < static_cast<uint32_t>(e.grid.area()); ++i) {
       e.group.push_back(static_cast<uint16_t>(mixHash(i, seed, 1) % (2 + seed % 3)));

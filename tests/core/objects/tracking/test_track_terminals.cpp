@@ -138,7 +138,6 @@ TEST_F(TrackTerminals, WhatFillsAnOutlineIsTheTracks) {
   EXPECT_EQ(state_.sightings[0].box, kBody);
   EXPECT_EQ(state_.sightings[0].areaPx, 640u);
   EXPECT_EQ(state_.sightings[0].sumX, 640 * (2 * 30 + 15) * 128);
-  EXPECT_EQ(state_.sightings[0].group, 2);
 }
 
 TEST_F(TrackTerminals, AnArmGoesWithItsBody) {
