@@ -91,8 +91,8 @@ struct Numbers {
 
   /// Blobs that a track gives up (core/objects/tracking/ownership/parted_tracks.hpp).
   struct Parting {
-    Number partCells{1, 4};   ///< Something above or below is a thing, not a part, if so large,
-    Number partOffset{1, 2};  ///< and has moved by half of this share of the lesser width.
+    Number partCells{1, 4};   ///< Another blob is a thing, not a part, if so large, and it or the
+    Number partOffset{1, 2};  ///< gap has moved by half of this share of the lesser width.
   } parting;
 
   /// The energy of whose a part of a region is (core/objects/tracking/ownership/
@@ -194,6 +194,7 @@ struct Numbers {
     Number rigidSamples{24};    ///< Frames over which a size is learnt of what is rigid,
     Number uniformSamples{12};  ///< where all are of one size,
     Number otherSamples{4};     ///< and of others.
+    Number widening{3};         ///< Times as slowly a width grows: strides and arms add to it.
     Number swaySamples{7};      ///< Over which it is learnt how much that changes.
     Number outgrown{5, 4};      ///< Of a size: more is more than the track.
     Number closing{1, 32};  ///< Of a box, by which an end comes nearer that goes behind something,

@@ -64,8 +64,9 @@ struct Track {
   int64_t companyNs = 0;           ///< Since nextCompany holds.
   int64_t apartNs = 0;             ///< For how long it was seen in a blob of its own.
   int64_t doubleNs = 0;            ///< Since it looks like a part of another track.
-  int32_t partOffset = INT32_MIN;  ///< Between the middles of its blob and of another part above or
-                                   ///< below, when they were first seen, in half pixels.
+  int32_t partOffset = INT32_MIN;  ///< Between the middles of its blob and of another part, when
+                                   ///< they were first seen, in half pixels.
+  int32_t partGap = INT32_MIN;     ///< The middle of the gap between the two, likewise.
   bool isStanding = false;         ///< Its regions show that it doesn't move in this frame.
   bool isOver = false;
   bool hasMoved = false;

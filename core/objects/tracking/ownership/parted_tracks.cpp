@@ -21,6 +21,13 @@ void forStrayCells(const TrackerState& state, const GroupGrid& e, const Visit& v
   });
 }
 
+/// The middle of the gap between two that lie beside each other, in half pixels; INT32_MIN where
+/// they don't, or where the camera moves what could hide the middle of a thing.
+int gapBetween(const Box& a, const Box& b, const GroupGrid& e) {
+  const int begin = std::min(a.right(), b.right()), end = std::max(a.x, b.x);
+  return begin < end && !e.showsMovers ? (begin + end) * e.stepPx : INT32_MIN;
+}
+
 }  // namespace
 
 void PartedTracks::find(const GroupGrid& e, TrackerState& state) {
@@ -37,8 +44,10 @@ void PartedTracks::find(const GroupGrid& e, TrackerState& state) {
     const Majority& other = majorities_[t];
     const bool isPair = state.blobs.isAlone(t) && 2 * other.votes > other.total &&
                         !state.blobs.isOwned(other.value);
-    if (!isPair) track.partOffset = INT32_MIN;
-    if (!isPair) continue;
+    if (!isPair) {
+      track.partOffset = track.partGap = INT32_MIN;
+      continue;
+    }
     const Piece &main = state.blobs.of(t), &part = state.blobs.piece(other.value);
     const int least = std::min(main.box.width, part.box.width);
     if (!isInside(main.box) || !isInside(part.box) || part.cells < n.partCells * main.cells)
@@ -46,14 +55,20 @@ void PartedTracks::find(const GroupGrid& e, TrackerState& state) {
     const int way = 2 * part.box.x + part.box.width - 2 * main.box.x - main.box.width;
     const int offset = (part.box.y < main.box.y ? way : -way) * e.stepPx;
     if (track.partOffset == INT32_MIN) track.partOffset = offset;
-    if (std::abs(offset - track.partOffset) <= n.partOffset * (least * e.stepPx)) continue;
+    const int gap = gapBetween(main.box, part.box, e);
+    if (track.partGap == INT32_MIN) track.partGap = gap;
+    const auto hasMoved = [&](int from, int to) {
+      return std::abs(to - from) > n.partOffset * (least * e.stepPx);
+    };
+    if (!hasMoved(track.partOffset, offset) && (gap == INT32_MIN || !hasMoved(track.partGap, gap)))
+      continue;
     e.forForeground([&](size_t cell, int, int) {
       if (state.owner[cell] == t + 1 && state.blobs.at(cell) == other.value)
         partedFrom_[cell] = std::exchange(state.owner[cell], uint16_t{0});
     });
     track.sizeSamples = 0;
     track.portrait.frames = 0;
-    track.partOffset = INT32_MIN;
+    track.partOffset = track.partGap = INT32_MIN;
   }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Two things above each other that were taken for one when they came in: once one has moved against
-// the other by a quarter of a width, the track gives it up. Parts of a body don't do that.
+// Two things that were taken for one when they came in: once one has moved against the other by a
+// quarter of a width, the track gives it up. Parts of a body don't do that. The same where the gap
+// between two beside each other moves along: what hides the middle of a thing stands still.
 //
 // Determinism: counts of cells; the smaller number wins ties.
 #pragma once

@@ -38,7 +38,10 @@ void mixSize(const Sighting& s, const TrackerState& state, Track& track) {
     seen.width += toInt(n.usual.of(int64_t{usual.width} - seen.width));
     seen.height += toInt(n.usual.of(int64_t{usual.height} - seen.height));
   }
-  track.size.width = mix(track.size.width, seen.width, weight);
+  const bool isWider = !state.scale.isUniform() && !state.isRigid(track) &&
+                       state.isSizeKnown(track) && seen.width > track.size.width;
+  track.size.width =
+      mix(track.size.width, seen.width, isWider ? n.widening.of(weight + 1) - 1 : weight);
   track.size.height = mix(track.size.height, seen.height, weight);
   countUp(track.sizeSamples);
   if (s.boxCells > 0) {
@@ -91,10 +94,13 @@ void learnSize(size_t index, int64_t stepNs, const GroupGrid& e, TrackerState& s
       isOtherThan(s.box.width, size.width) || isOtherThan(s.box.height, size.height);
   // Nothing says where it ends beside somebody else.
   const bool isShared = !state.scale.isUniform() && !s.isSole;
-  if (isCut || isShared || (isOther && !state.isSizeKnown(track))) {
-    if (!state.isSizeKnown(track)) track.size = state.sizeOfPart(track, s.box);
+  if (!state.isSizeKnown(track) && (isCut || isShared || isOther)) {
+    track.size = state.sizeOfPart(track, s.box);
+    // What is known agrees frame after frame; of what a moving camera shows parts come and go.
+    if (isOther && !state.showsMovers) track.sizeSamples = 0;
     return;
   }
+  if (isCut || isShared) return;
   mixSize(s, state, track);
 }
 

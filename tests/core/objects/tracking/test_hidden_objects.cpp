@@ -204,6 +204,20 @@ TEST(HiddenObjects, WhatLostAPartThatGoesOnByItselfIsNoLargerThanWhatIsLeft) {
   }
 }
 
+TEST(HiddenObjects, TwoBesideEachOtherArePartedOnceTheGapMovesAlong) {
+  BodyScene scene;
+  for (int i = 0; i < 60; ++i) {
+    const int x = 20 + 3 * i, gap = i < 20 ? 0 : 10;
+    const Body rear{{x, 84, 30, 60}, kRed}, front{{x + 30 + gap, 84, 30, 60}, kBlue};
+    const auto objects = scene.show({rear, front});
+    if (i == 19) {
+      ASSERT_EQ(objects->objects.size(), 1u);
+    }
+    if (i < 40) continue;
+    for (const Box& box : {rear.box, front.box}) EXPECT_EQ(countAt(*objects, box, 75), 1) << i;
+  }
+}
+
 TEST(HiddenObjects, WhatIsCompleteTakesNoParts) {
   BodyScene scene;
   for (int i = 0; i < 60; ++i) {

@@ -3,30 +3,52 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 namespace rg {
 namespace {
 
 constexpr int kUnit = objects::kPositionUnit;
 constexpr Size kFrame{768, 576};
 
-/// The size of a track of 30x80 px after it was seen in a box of `seen` px for eight seconds.
-Size sizeAfterSeeing(Size seen, objects::TrackerState state) {
-  objects::GroupGrid evidence;
-  evidence.frame = state.frame = kFrame;
-  objects::Track track;
-  track.id = state.nextId++;
-  track.x = 300 * kUnit;
-  track.foot = 300 * kUnit;
-  track.size = {30 * kUnit, 80 * kUnit};
-  track.sizeSamples = 20;
-  track.isSeen = true;
-  state.tracks.push_back(track);
-  objects::Sighting& s = state.sightings.emplace_back();
-  s.isWhole = s.isSole = true;
-  s.box = {300 - seen.width / 2, 300 - seen.height, seen.width, seen.height};
-  for (int i = 0; i < 200; ++i) learnSize(0, 40'000'000, evidence, state);
-  const objects::Extent& size = state.tracks[0].size;
-  return {(size.width + kUnit / 2) / kUnit, (size.height + kUnit / 2) / kUnit};
+/// A track of 30x80 px that is seen in boxes of its own.
+class SeenTrack {
+ public:
+  explicit SeenTrack(objects::TrackerState state = {}, uint32_t sizeSamples = 20)
+      : state_(std::move(state)) {
+    evidence_.frame = state_.frame = kFrame;
+    objects::Track track;
+    track.id = state_.nextId++;
+    track.x = 300 * kUnit;
+    track.foot = 300 * kUnit;
+    track.size = {30 * kUnit, 80 * kUnit};
+    track.sizeSamples = sizeSamples;
+    track.isSeen = true;
+    state_.tracks.push_back(track);
+    objects::Sighting& s = state_.sightings.emplace_back();
+    s.isWhole = s.isSole = true;
+  }
+
+  void see(Size size) {
+    state_.sightings[0].box = {300 - size.width / 2, 300 - size.height, size.width, size.height};
+    learnSize(0, 40'000'000, evidence_, state_);
+  }
+  [[nodiscard]] bool isSizeKnown() const { return state_.isSizeKnown(state_.tracks[0]); }
+  [[nodiscard]] Size size() const {
+    const objects::Extent& size = state_.tracks[0].size;
+    return {(size.width + kUnit / 2) / kUnit, (size.height + kUnit / 2) / kUnit};
+  }
+
+ private:
+  objects::TrackerState state_;
+  objects::GroupGrid evidence_;
+};
+
+/// The size after eight seconds.
+Size sizeAfterSeeing(Size seen, const objects::TrackerState& state) {
+  SeenTrack track(state);
+  for (int i = 0; i < 200; ++i) track.see(seen);
+  return track.size();
 }
 
 TEST(TrackSizes, WhereAllAreOfOneSizeWhoIsSeenLargerIsHalfwayBetween) {
@@ -47,6 +69,24 @@ TEST(TrackSizes, WhereTheSceneSaysNothingWhatIsSeenCounts) {
   const Size wide = sizeAfterSeeing({60, 80}, {});
   EXPECT_NEAR(wide.width, 60, 1);
   EXPECT_EQ(wide.height, 80);
+}
+
+TEST(TrackSizes, AreKnownOnceTheyAgreeFrameAfterFrame) {
+  SeenTrack track({}, 0);
+  for (int i = 0; i < 40; ++i) {
+    track.see({i % 8 < 4 ? 30 : 60, 80});
+    EXPECT_FALSE(track.isSizeKnown()) << i;
+  }
+  for (int i = 0; i < 9; ++i) track.see({30, 80});  // The first is off the one before.
+  EXPECT_TRUE(track.isSizeKnown());
+  EXPECT_EQ(track.size().width, 30);
+}
+
+TEST(TrackSizes, StridesAddLessThanTheyTakeAway) {
+  SeenTrack track;
+  for (int i = 0; i < 200; ++i) track.see({i % 4 < 2 ? 30 : 50, 80});
+  EXPECT_GT(track.size().width, 31);
+  EXPECT_LT(track.size().width, 38);
 }
 
 }  // namespace
