@@ -73,5 +73,28 @@ TEST_F(Doubles, WhoWereBothSeenApartStayTwoHoweverLongTheyLookLikeOneBody) {
   EXPECT_TRUE(state_.tracks[1].isOver);
 }
 
+TEST_F(Doubles, BeforeAMovingCameraAreTwoThingsIfTheEnergyPartsThem) {
+  // Body and foot touch, each of a group of its own.
+  evidence_.frame = evidence_.grid = {8, 4};
+  evidence_.group.assign(24, 1);
+  evidence_.group.resize(32, 2);
+  evidence_.listRuns();
+  for (const bool showsMovers : {true, false}) {
+    state_ = {};
+    state_.showsMovers = showsMovers;
+    state_.blobs.find(evidence_, false);
+    add(state_, {95, 100, 40, 100}, 200);
+    add(state_, {100, 200, 20, 16}, 10);
+    state_.tasks.resize(2);
+    state_.tasks[0].track = 1;
+    state_.tasks[0].fitted = {0, 0, 8, 3};
+    state_.tasks[1].track = 2;
+    state_.tasks[1].fitted = {0, 3, 8, 1};
+    state_.blobs.findOwners(evidence_, state_.tasks, evidence_.group, 2);
+    objects::joinDoubles(40'000'000, state_);
+    EXPECT_EQ(state_.tracks[1].isOver, !showsMovers);
+  }
+}
+
 }  // namespace
 }  // namespace rg
