@@ -40,8 +40,8 @@ void mixSize(const Sighting& s, const TrackerState& state, Track& track) {
   }
   const bool isWider = !state.scale.isUniform() && !state.isRigid(track) &&
                        state.isSizeKnown(track) && seen.width > track.size.width;
-  track.size.width =
-      mix(track.size.width, seen.width, isWider ? n.widening.of(weight + 1) - 1 : weight);
+  const int64_t widthWeight = isWider ? std::max(weight, n.widening.of(weight + 1) - 1) : weight;
+  track.size.width = mix(track.size.width, seen.width, widthWeight);
   track.size.height = mix(track.size.height, seen.height, weight);
   countUp(track.sizeSamples);
   if (s.boxCells > 0) {
