@@ -35,6 +35,11 @@ bool belongTogether(const Box& a, const Box& b, const SceneScale& scale,
          both.width * kUnit <= n.bodyWidth * expected.width;
 }
 
+/// Before a moving camera groups are things; before a still one they may be parts of a body.
+bool areTwoThings(const GroupGrid& e, uint16_t group, uint16_t other) {
+  return e.showsMovers && group != other;
+}
+
 }  // namespace
 
 void Newcomers::find(const GroupGrid& e, uint32_t minAreaPx, TrackerState& state) {
@@ -54,12 +59,14 @@ void Newcomers::find(const GroupGrid& e, uint32_t minAreaPx, TrackerState& state
   for (const size_t i : order_) {
     Newcomer piece;
     piece.box = toPixels(pieces_[i].box, e.stepPx, e.frame);
+    piece.group = pieces_[i].group;
     piece.cells = pieces_[i].cells;
     int host = -1;
     for (size_t n = 0; n < list_.size() && host < 0; ++n)
       if ((state.scale.isUniform() ||
            piece.cells <= state.numbers.newcomers.fragment * list_[n].cells) &&
-          belongTogether(list_[n].box, piece.box, state.scale, state.numbers.newcomers))
+          belongTogether(list_[n].box, piece.box, state.scale, state.numbers.newcomers) &&
+          !areTwoThings(e, list_[n].group, piece.group))
         host = static_cast<int>(n);
     if (host < 0) {
       host = static_cast<int>(list_.size());
@@ -88,6 +95,7 @@ void Newcomers::giveFragments(const GroupGrid& e, TrackerState& state) {
     for (size_t t = 0; t < state.tracks.size() && newcomer.cells > 0; ++t) {
       if (!state.blobs.has(t)) continue;
       const Piece& blob = state.blobs.of(t);
+      if (areTwoThings(e, blob.group, newcomer.group)) continue;
       const Box box = toPixels(blob.box, e.stepPx, e.frame);
       if (newcomer.cells > state.numbers.newcomers.fragment * blob.cells ||
           !belongTogether(box, newcomer.box, state.scale, state.numbers.newcomers))

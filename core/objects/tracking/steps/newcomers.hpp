@@ -15,6 +15,7 @@ namespace rg::objects {
 /// One that may be something.
 struct Newcomer {
   Box box;              ///< In pixels.
+  uint16_t group = 0;   ///< Of its largest piece.
   uint32_t cells = 0;   ///< 0: it was nothing, or went to a track.
   uint64_t parent = 0;  ///< Id of the track whose blob it comes out of, 0 = none.
   bool isAtBorder = false;
