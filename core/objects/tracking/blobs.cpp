@@ -6,8 +6,8 @@
 
 namespace rg::objects {
 
-void Blobs::find(const GroupGrid& e, bool areCut) {
-  findPieces(e, {}, scratch_, blobs_);
+void Blobs::find(const GroupGrid& e, bool areParted, bool areCut) {
+  findPieces(e, {}, areParted, scratch_, blobs_);
   if (areCut) cutPieces(e, scratch_, blobs_);
 }
 

@@ -16,8 +16,9 @@ namespace rg::objects {
 
 class Blobs {
  public:
-  /// `areCut`: where two things seem to touch (core/objects/tracking/pieces.hpp).
-  void find(const GroupGrid& evidence, bool areCut);
+  /// `areParted`: each is of one group; `areCut`: where two things seem to touch
+  /// (core/objects/tracking/pieces.hpp).
+  void find(const GroupGrid& evidence, bool areParted, bool areCut);
   /// Of `tracks` tracks: the blob of each is the one in which it has most cells of its fitted box.
   void findOwners(const GroupGrid& evidence, std::span<const FitTask> tasks,
                   std::span<const uint16_t> owner, size_t tracks);

@@ -46,7 +46,7 @@ uint16_t groupOf(const Run& run, const GroupGrid& e) {
   return e.group[e.at(run.begin, run.y)];
 }
 
-/// The parts of the foreground that nobody owns, each of one group.
+/// The runs of the foreground that nobody owns.
 void listFree(const GroupGrid& e, std::span<const uint16_t> owner, std::vector<Run>& runs) {
   if (owner.empty()) {
     runs = e.runs;
@@ -58,11 +58,12 @@ void listFree(const GroupGrid& e, std::span<const uint16_t> owner, std::vector<R
   });
 }
 
-/// Joins the runs of one group that touch, corners included.
-void joinRuns(const GroupGrid& e, const std::vector<Run>& runs, std::vector<uint32_t>& parent) {
+/// Joins the runs that touch, corners included; where groups are parted, those of one.
+void joinRuns(const GroupGrid& e, bool areParted, const std::vector<Run>& runs,
+              std::vector<uint32_t>& parent) {
   parent.resize(runs.size());
   const auto tryJoin = [&](uint32_t a, uint32_t b) {
-    if (groupOf(runs[a], e) == groupOf(runs[b], e)) join(parent, a, b);
+    if (!areParted || groupOf(runs[a], e) == groupOf(runs[b], e)) join(parent, a, b);
   };
   uint32_t above = 0;  // None before it reaches down to the present run.
   for (uint32_t i = 0; i < runs.size(); ++i) {
@@ -77,8 +78,8 @@ void joinRuns(const GroupGrid& e, const std::vector<Run>& runs, std::vector<uint
 
 }  // namespace
 
-void findPieces(const GroupGrid& e, std::span<const uint16_t> owner, PieceScratch& s,
-                std::vector<Piece>& pieces) {
+void findPieces(const GroupGrid& e, std::span<const uint16_t> owner, bool areParted,
+                PieceScratch& s, std::vector<Piece>& pieces) {
   if (s.grid != e.grid) {
     s.grid = e.grid;
     s.label.assign(e.group.size(), 0);
@@ -89,7 +90,7 @@ void findPieces(const GroupGrid& e, std::span<const uint16_t> owner, PieceScratc
   };
   for (const Run& run : s.runs) fill(run, 0);
   listFree(e, owner, s.runs);
-  joinRuns(e, s.runs, s.parent);
+  joinRuns(e, areParted, s.runs, s.parent);
   pieces.assign(numberSets(s.parent), {});
   for (size_t i = 0; i < s.runs.size(); ++i) {
     const Run& run = s.runs[i];

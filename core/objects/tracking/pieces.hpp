@@ -12,11 +12,11 @@
 
 namespace rg::objects {
 
-/// An 8-connected set of cells of one group.
+/// An 8-connected set of cells.
 struct Piece {
   uint32_t cells = 0;
   Box box;             ///< In cells.
-  uint16_t group = 0;  ///< As in GroupGrid.
+  uint16_t group = 0;  ///< As in GroupGrid; one of its groups where they are not parted.
 };
 
 struct PieceScratch {
@@ -28,10 +28,10 @@ struct PieceScratch {
   std::vector<Piece> cut;
 };
 
-/// The parts of the foreground whose owner is 0: what the energy's minimum parts is of different
-/// pieces. owner: for each cell 1 + track or 0; empty: nobody owns anything.
-void findPieces(const GroupGrid& evidence, std::span<const uint16_t> owner, PieceScratch& scratch,
-                std::vector<Piece>& pieces);
+/// The parts of the foreground whose owner is 0. owner: for each cell 1 + track or 0; empty: nobody
+/// owns anything. areParted: what the energy's minimum parts is of different pieces.
+void findPieces(const GroupGrid& evidence, std::span<const uint16_t> owner, bool areParted,
+                PieceScratch& scratch, std::vector<Piece>& pieces);
 
 /// Cuts pieces apart, from top to bottom, where two things seem to touch: where a column holds much
 /// less than some on either side. Without a joint a piece keeps its number; parts to the right get

@@ -35,7 +35,7 @@ struct Track {
   int32_t speedX = 0, speedY = 0;  ///< Over the ground, in 1/16 px per second.
   Extent size;
   Look look;
-  Look recent;  ///< Since it came out of a blob of several, while it is in doubt.
+  Look recent;  ///< Since it came out of a crowd, while it is in doubt.
   Portrait portrait;
   graph::Colour colour;
   std::vector<uint64_t> parents;
@@ -59,10 +59,10 @@ struct Track {
   uint16_t sway = 64;    ///< By how much its box changes, in 1/256 of its size.
   uint16_t fill = 150;   ///< Share of its box that is foreground, in 1/256.
   bool isSeen = false;   ///< In this frame.
-  uint64_t company = 0;  ///< Smallest id of those that it shares a blob with.
+  uint64_t company = 0;  ///< Smallest id of those that it is in a crowd with.
   uint64_t nextCompany = 0;
   int64_t companyNs = 0;           ///< Since nextCompany holds.
-  int64_t apartNs = 0;             ///< For how long it was seen in a blob of its own.
+  int64_t apartNs = 0;             ///< For how long it was seen in a crowd of its own.
   int64_t doubleNs = 0;            ///< Since it looks like a part of another track.
   int32_t partOffset = INT32_MIN;  ///< Between the middles of its blob and of another part, when
                                    ///< they were first seen, in half pixels.

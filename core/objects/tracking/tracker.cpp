@@ -54,8 +54,9 @@ void Tracker::update(const GroupGrid& evidence, const MergeInput& input,
   life_.events().clear();
   begin(evidence, stepNs);
   fit_.find(evidence, stepNs, state_);
-  state_.blobs.find(evidence, !state_.scale.isUniform());
-  state_.blobs.findOwners(evidence, state_.tasks, state_.owner, state_.tracks.size());
+  state_.blobs.find(evidence, true, !state_.scale.isUniform());
+  state_.crowds.find(evidence, evidence.showsMovers, !state_.scale.isUniform());
+  state_.findBlobsOfTracks(evidence);
   portraits_.place(evidence, stepNs, executor, state_);
   parted_.find(evidence, state_);
   terminals_.decide(evidence, input, parted_.partedFrom(), state_);

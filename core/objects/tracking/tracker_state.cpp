@@ -12,6 +12,15 @@ constexpr int kUnit = kPositionUnit;
 
 }  // namespace
 
+void TrackerState::findBlobsOfTracks(const GroupGrid& e) {
+  for (Blobs* found : {&blobs, &crowds}) found->findOwners(e, tasks, owner, tracks.size());
+}
+
+void TrackerState::exchangeSightings(size_t a, size_t b) {
+  std::swap(sightings[a], sightings[b]);
+  for (Blobs* found : {&blobs, &crowds}) found->exchange(a, b);
+}
+
 bool TrackerState::isSizeKnown(const Track& track) const {
   return scale.isUniform() || track.sizeSamples >= numbers.place.trustedSamples.whole();
 }
@@ -37,8 +46,8 @@ bool TrackerState::isAbout(const Box& box, const Track& track) const {
 
 bool TrackerState::isClear(size_t index, const GroupGrid& e) const {
   const Track& track = tracks[index];
-  if (!blobs.isAlone(index) || track.unseenNs > 0) return false;
-  const Box& box = blobs.of(index).box;
+  if (!crowds.isAlone(index) || track.unseenNs > 0) return false;
+  const Box& box = crowds.of(index).box;
   if (box.x <= 0 || box.y <= 0 || box.right() >= e.grid.width || box.bottom() >= e.grid.height)
     return false;
   return isAbout({box.x * e.stepPx, box.y * e.stepPx, box.width * e.stepPx, box.height * e.stepPx},

@@ -20,7 +20,7 @@ struct Sighting {
   uint32_t othersCells = 0;    ///< Of its fitted box that other tracks own.
   bool isCutOff = false;       ///< `box` lacks an end of what is expected there.
   bool isStanding = false;     ///< Its regions show that it doesn't move.
-  bool isSole = false;         ///< Nobody else is in its blob.
+  bool isSole = false;         ///< Nobody else is in its crowd.
   bool isWhole = false;        ///< `box` shows all of it.
   bool isMatched = false;      ///< Its portrait was found.
   uint32_t share = 0;          ///< Of the portrait that was found, in 1/256.
@@ -44,9 +44,15 @@ struct TrackerState {
   std::vector<Sighting> sightings;  ///< Of each track that there was when the frame began.
   std::vector<FitTask> tasks;       ///< Of the tracks that are looked for.
   std::vector<uint16_t> owner;      ///< Of each cell of the evidence: 1 + track, 0 = none.
-  Blobs blobs;
+  Blobs blobs;                      ///< Each of one group of the energy's minimum.
+  Blobs crowds;  ///< The same; but before a still camera, whose groups may be parts of a body, all
+                 ///< that touches.
   uint64_t nextId = 1;  ///< Of the next track.
 
+  /// Of each track the blob and the crowd in which it has most cells.
+  void findBlobsOfTracks(const GroupGrid& evidence);
+  /// What is seen of one track is seen of the other instead.
+  void exchangeSightings(size_t a, size_t b);
   /// Until then a track is what its blob is: it grows with it, and nothing else begins beside it.
   [[nodiscard]] bool isSizeKnown(const Track& track) const;
   /// Whether its box hardly changes: what is missing of it is hidden.
@@ -55,7 +61,7 @@ struct TrackerState {
   [[nodiscard]] bool isFaithful(const Track& track) const;
   /// Whether a box of pixels is as large as a track, but for two cells or an eighth.
   [[nodiscard]] bool isAbout(const Box& box, const Track& track) const;
-  /// Whether the blob that a track has for itself is as large as it should be.
+  /// Whether the crowd in which a track is alone is as large as it should be.
   [[nodiscard]] bool isClear(size_t index, const GroupGrid& evidence) const;
   /// Whether a box is larger than a track of which the size is known from its own history.
   [[nodiscard]] bool outgrows(const Track& track, const Box& box) const;

@@ -69,7 +69,7 @@ void TrackPortraits::list(const GroupGrid& e, TrackerState& state) {
     if (owner == 0) return;
     if (isSearched_[owner] != 0)
       state.owner[cell] = 0;
-    else if (state.blobs.soleTrack(state.blobs.at(cell)) == owner)
+    else if (state.crowds.soleTrack(state.crowds.at(cell)) == owner)
       taken_[cell] = 1;
   });
 }
@@ -105,7 +105,7 @@ void TrackPortraits::place(const GroupGrid& e, int64_t stepNs, const Executor& e
                          state.owner[cell] = static_cast<uint16_t>(task.track + 1);
                      });
   }
-  state.blobs.findOwners(e, state.tasks, state.owner, state.tracks.size());
+  state.findBlobsOfTracks(e);
 }
 
 /// Whether one that was given its match before has taken cells where this one was looked for.

@@ -42,7 +42,7 @@ void PartedTracks::find(const GroupGrid& e, TrackerState& state) {
   for (size_t t = 0; t < state.tracks.size(); ++t) {
     Track& track = state.tracks[t];
     const Majority& other = majorities_[t];
-    const bool isPair = state.blobs.isAlone(t) && 2 * other.votes > other.total &&
+    const bool isPair = state.crowds.isAlone(t) && 2 * other.votes > other.total &&
                         !state.blobs.isOwned(other.value);
     if (!isPair) {
       track.partOffset = track.partGap = INT32_MIN;

@@ -9,10 +9,10 @@ void Companies::find(int64_t stepNs, TrackerState& state) {
     Track& track = state.tracks[i];
     if (track.company == 0) track.company = track.id;
     before_[i] = track.company;
-    if (!track.isSeen || !track.isConfirmed || !state.blobs.has(i)) continue;
-    uint64_t company = track.id;  // Ids are sorted: the first track of the blob is the smallest.
+    if (!track.isSeen || !track.isConfirmed || !state.crowds.has(i)) continue;
+    uint64_t company = track.id;  // Ids are sorted: the first track of the crowd is the smallest.
     for (size_t j = 0; j < i && company == track.id; ++j)
-      if (state.blobs.areTogether(j, i) && state.tracks[j].isSeen && state.tracks[j].isConfirmed)
+      if (state.crowds.areTogether(j, i) && state.tracks[j].isSeen && state.tracks[j].isConfirmed)
         company = state.tracks[j].id;
     if (company != track.nextCompany) track.companyNs = 0;
     track.nextCompany = company;

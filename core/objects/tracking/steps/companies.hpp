@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Who shares a blob with whom, and since when: merges and splits.
+// Who is in a crowd with whom, and since when: merges and splits.
 //
 // Determinism: a company is named after its smallest id.
 #pragma once
@@ -13,7 +13,7 @@ namespace rg::objects {
 
 class Companies {
  public:
-  /// Tracks of one blob form a company; a change counts once it has lasted. Tracks that are not
+  /// Tracks of one crowd form a company; a change counts once it has lasted. Tracks that are not
   /// seen stay where they were.
   void find(int64_t stepNs, TrackerState& state);
   /// Adds one event for each company that came together or apart in this frame.

@@ -26,8 +26,7 @@ void exchange(Track& a, Track& b, TrackerState& state) {
   const auto second = static_cast<size_t>(&b - state.tracks.data());
   exchangeIdentities(a, b);
   std::swap(a, b);  // Tracks stay sorted by id.
-  std::swap(state.sightings[first], state.sightings[second]);
-  state.blobs.exchange(first, second);
+  state.exchangeSightings(first, second);
   for (uint16_t& owner : state.owner) {
     if (owner == first + 1)
       owner = static_cast<uint16_t>(second + 1);
@@ -41,11 +40,11 @@ void exchange(Track& a, Track& b, TrackerState& state) {
 void Encounters::meet(TrackerState& state) {
   for (Encounter& encounter : list_) encounter.isTogether = false;
   for (size_t a = 0; a < state.sightings.size(); ++a) {
-    if (!state.blobs.has(a) || !state.tracks[a].isConfirmed ||
-        state.blobs.soleTrack(state.blobs.numberOf(a)) != 0)
+    if (!state.crowds.has(a) || !state.tracks[a].isConfirmed ||
+        state.crowds.soleTrack(state.crowds.numberOf(a)) != 0)
       continue;
     for (size_t b = a + 1; b < state.sightings.size(); ++b) {
-      if (!state.blobs.areTogether(b, a) || !state.tracks[b].isConfirmed) continue;
+      if (!state.crowds.areTogether(b, a) || !state.tracks[b].isConfirmed) continue;
       if (intersect(state.tracks[a].box(), state.tracks[b].box()).isEmpty()) continue;
       const std::pair ids{state.tracks[a].id, state.tracks[b].id};
       const auto at = std::lower_bound(list_.begin(), list_.end(), ids,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Who is who after several objects were one blob: once they are apart again, their looks tell
+// Who is who after several objects were one crowd: once they are apart again, their looks tell
 // whether two of them have taken each other's place.
 //
 // Determinism: pairs in the order of their ids.
@@ -14,11 +14,11 @@ namespace rg::objects {
 
 class Encounters {
  public:
-  /// Remembers the pairs of tracks that overlap in one blob.
+  /// Remembers the pairs of tracks that overlap in one crowd.
   void meet(TrackerState& state);
   /// Judges the pairs that came apart; where each looks like the other did, they are exchanged.
   void judge(TrackerState& state);
-  /// Whether two tracks were in one blob and have not been judged since.
+  /// Whether two tracks were in one crowd and have not been judged since.
   [[nodiscard]] bool contains(uint64_t a, uint64_t b) const;
   void clear() { list_.clear(); }
 

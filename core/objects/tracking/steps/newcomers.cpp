@@ -43,7 +43,7 @@ bool areTwoThings(const GroupGrid& e, uint16_t group, uint16_t other) {
 }  // namespace
 
 void Newcomers::find(const GroupGrid& e, uint32_t minAreaPx, TrackerState& state) {
-  findPieces(e, state.owner, pieceScratch_, pieces_);
+  findPieces(e, state.owner, true, pieceScratch_, pieces_);
   if (!state.scale.isUniform()) cutPieces(e, pieceScratch_, pieces_);
   list_.clear();
   ofPiece_.assign(pieces_.size(), -1);

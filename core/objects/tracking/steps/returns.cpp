@@ -50,8 +50,7 @@ void takePlace(size_t index, size_t young, TrackerState& state) {
   track.isStanding = other.isStanding;
   other.isSeen = false;  // No other step takes the two for one body.
   other.isOver = true;
-  std::swap(state.sightings[index], state.sightings[young]);
-  state.blobs.exchange(index, young);
+  state.exchangeSightings(index, young);
   for (uint16_t& owner : state.owner)
     if (owner == young + 1) owner = static_cast<uint16_t>(index + 1);
 }

@@ -30,10 +30,10 @@ int closedIn(StandingEdge& edge, int place, int opposite) {
   return std::abs(place - edge.opposite) - std::abs(place - opposite);
 }
 
-/// Whether the others in its blob were told by their portraits: what they leave is its own.
+/// Whether the others in its crowd were told by their portraits: what they leave is its own.
 bool hasTheRest(size_t index, const TrackerState& state) {
   for (size_t i = 0; i < state.sightings.size(); ++i)
-    if (i != index && state.blobs.areTogether(i, index) && !state.sightings[i].isMatched)
+    if (i != index && state.crowds.areTogether(i, index) && !state.sightings[i].isMatched)
       return false;
   return state.blobs.has(index);
 }
@@ -75,7 +75,7 @@ void sight(const GroupGrid& e, TrackerState& state) {
     Sighting& s = state.sightings[i];
     if (s.task < 0) continue;
     const Track& track = state.tracks[i];
-    const bool isSole = state.blobs.isAlone(i);
+    const bool isSole = state.crowds.isAlone(i);
     const bool isUsual = isLike(s.box, track.size, n) ||
                          (isSole && isLike(s.box, state.scale.at(s.box.bottom()), n)) ||
                          (!state.isSizeKnown(track) && (isSole || hasTheRest(i, state)));

@@ -9,7 +9,7 @@ namespace rg::objects {
 /// What each track owns of its fitted box.
 void countCells(const GroupGrid& evidence, TrackerState& state);
 
-/// Whether all of each track is seen, and whether it has a blob for itself and stands.
+/// Whether all of each track is seen, and whether it is alone in its crowd and stands.
 void sight(const GroupGrid& evidence, TrackerState& state);
 
 }  // namespace rg::objects

@@ -96,8 +96,12 @@ void learnSize(size_t index, int64_t stepNs, const GroupGrid& e, TrackerState& s
   const bool isShared = !state.scale.isUniform() && !s.isSole;
   if (!state.isSizeKnown(track) && (isCut || isShared || isOther)) {
     track.size = state.sizeOfPart(track, s.box);
-    // What is known agrees frame after frame; of what a moving camera shows parts come and go.
-    if (isOther && !state.showsMovers) track.sizeSamples = 0;
+    // What is known agrees frame after frame, or a portrait of before would be found in a part; of
+    // what a moving camera shows parts come and go.
+    if (isOther && !state.showsMovers) {
+      track.sizeSamples = 0;
+      track.portrait.frames = 0;
+    }
     return;
   }
   if (isCut || isShared) return;
@@ -112,13 +116,13 @@ void learnScale(const GroupGrid& e, TrackerState& state) {
     const Numbers::Sizes& n = state.numbers.sizes;
     const int64_t half =
         (state.scale.isKnown() ? n.learnEvery : n.learnFirst).of(track.size.height);
-    if (!track.isConfirmed || !state.blobs.has(i) || dx * dx + dy * dy < half * half) continue;
-    const Box box = state.blobs.of(i).box;
+    if (!track.isConfirmed || !state.crowds.has(i) || dx * dx + dy * dy < half * half) continue;
+    const Box box = state.crowds.of(i).box;
     if (box.x <= 0 || box.y <= 0 || box.right() >= e.grid.width || box.bottom() >= e.grid.height)
       continue;
     bool isAlone = true, isOneThing = true;
     for (size_t j = 0; j < state.sightings.size(); ++j) {
-      if (j == i || !state.blobs.areTogether(j, i)) continue;
+      if (j == i || !state.crowds.areTogether(j, i)) continue;
       isAlone = false;
       const Box mine = track.box(), other = state.tracks[j].box();
       const int columns = std::min(mine.right(), other.right()) - std::max(mine.x, other.x);

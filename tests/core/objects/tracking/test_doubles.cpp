@@ -82,7 +82,7 @@ TEST_F(Doubles, BeforeAMovingCameraAreTwoThingsIfTheEnergyPartsThem) {
   for (const bool showsMovers : {true, false}) {
     state_ = {};
     state_.showsMovers = showsMovers;
-    state_.blobs.find(evidence_, false);
+    state_.blobs.find(evidence_, true, false);
     add(state_, {95, 100, 40, 100}, 200);
     add(state_, {100, 200, 20, 16}, 10);
     state_.tasks.resize(2);

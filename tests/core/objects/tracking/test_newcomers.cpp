@@ -51,7 +51,7 @@ TEST_P(OfTwoGroups, TheSmallerGoesToATrackOnlyIfTheCameraStands) {
   state_.owner.assign(evidence_.group.size(), 0);
   for (size_t cell = 0; cell < state_.owner.size(); ++cell)
     state_.owner[cell] = evidence_.group[cell] == 1;
-  state_.blobs.find(evidence_, false);
+  state_.blobs.find(evidence_, true, false);
   state_.tasks.resize(1);
   state_.tasks[0].track = 1;
   state_.tasks[0].fitted = {4, 4, 8, 12};

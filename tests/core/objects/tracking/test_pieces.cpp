@@ -26,7 +26,7 @@ std::vector<uint32_t> cellsOfPieces(const objects::GroupGrid& e,
                                     const std::vector<uint16_t>& owner) {
   objects::PieceScratch scratch;
   std::vector<objects::Piece> pieces;
-  objects::findPieces(e, owner, scratch, pieces);
+  objects::findPieces(e, owner, true, scratch, pieces);
   std::vector<uint32_t> cells;
   for (const objects::Piece& piece : pieces) cells.push_back(piece.cells);
   return cells;
@@ -56,10 +56,10 @@ TEST(Pieces, AScratchServesGridsOfAnySize) {
   objects::PieceScratch scratch;
   std::vector<objects::Piece> pieces;
   for (const objects::GroupGrid* e : {&wide, &tall, &tiny, &wide, &tiny, &tall}) {
-    objects::findPieces(*e, {}, scratch, pieces);
+    objects::findPieces(*e, {}, true, scratch, pieces);
     objects::PieceScratch fresh;
     std::vector<objects::Piece> expected;
-    objects::findPieces(*e, {}, fresh, expected);
+    objects::findPieces(*e, {}, true, fresh, expected);
     EXPECT_EQ(scratch.label, fresh.label);
     EXPECT_EQ(pieces.size(), expected.size());
   }
@@ -70,7 +70,7 @@ std::vector<std::string> cutRows(const std::vector<std::string>& rows) {
   const objects::GroupGrid e = drawn(rows);
   objects::PieceScratch scratch;
   std::vector<objects::Piece> pieces;
-  objects::findPieces(e, std::vector<uint16_t>(e.group.size(), 0), scratch, pieces);
+  objects::findPieces(e, std::vector<uint16_t>(e.group.size(), 0), true, scratch, pieces);
   objects::cutPieces(e, scratch, pieces);
   std::vector<std::string> result(rows.size());
   std::vector<objects::Piece> counted(pieces.size());
@@ -102,7 +102,7 @@ TEST(Pieces, AreOfOneGroupAlsoWhereTheyAreCut) {
   e.listRuns();
   objects::PieceScratch scratch;
   std::vector<objects::Piece> pieces;
-  objects::findPieces(e, {}, scratch, pieces);
+  objects::findPieces(e, {}, true, scratch, pieces);
   objects::cutPieces(e, scratch, pieces);
   std::vector<int> groups;
   for (const objects::Piece& piece : pieces) groups.push_back(piece.group);
@@ -118,7 +118,8 @@ TEST(Pieces, ABodyIsNotCutFromItsLegsAndArms) {
 }
 
 /// The labels of findPieces() by a flood from each cell in raster order.
-std::vector<uint32_t> flooded(const objects::GroupGrid& e, const std::vector<uint16_t>& owner) {
+std::vector<uint32_t> flooded(const objects::GroupGrid& e, const std::vector<uint16_t>& owner,
+                              bool areParted) {
   std::vector<uint32_t> labels(e.group.size(), 0);
   uint32_t count = 0;
   const auto isFree = [&](size_t cell) { return e.group[cell] != 0 && owner[cell] == 0; };
@@ -135,7 +136,8 @@ std::vector<uint32_t> flooded(const objects::GroupGrid& e, const std::vector<uin
         const Point next{x + i % 3 - 1, y + i / 3 - 1};
         if (!boundsOf(e.grid).contains(next)) continue;
         const size_t other = e.at(next.x, next.y);
-        if (!isFree(other) || labels[other] != 0 || e.group[other] != e.group[start]) continue;
+        if (!isFree(other) || labels[other] != 0) continue;
+        if (areParted && e.group[other] != e.group[start]) continue;
         labels[other] = count;
         open.push_back(other);
       }
@@ -156,8 +158,9 @@ TEST(Pieces, AreThoseOfAFloodOnNoiseOfGroupsAndOwners) {
     }
     e.listRuns();
     std::vector<objects::Piece> pieces;
-    objects::findPieces(e, owner, scratch, pieces);
-    ASSERT_EQ(scratch.label, flooded(e, owner)) << "seed " << seed;
+    const bool areParted = seed % 2 == 0;
+    objects::findPieces(e, owner, areParted, scratch, pieces);
+    ASSERT_EQ(scratch.label, flooded(e, owner, areParted)) << "seed " << seed;
     for (uint32_t i = 0; i < pieces.size(); ++i)
       EXPECT_EQ(pieces[i].cells, std::count(scratch.label.begin(), scratch.label.end(), i + 1));
   }

@@ -39,7 +39,7 @@ class Returns : public ::testing::Test {
     young.speedX = -30 * kUnit;
   }
   void settle() {
-    state_.blobs.findOwners(evidence_, {}, state_.owner, state_.tracks.size());
+    state_.findBlobsOfTracks(evidence_);
     returns_.settle(evidence_, encounters_, newcomers_, state_);
   }
   void expectNoSuccessor() {

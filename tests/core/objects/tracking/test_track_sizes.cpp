@@ -33,6 +33,7 @@ class SeenTrack {
     state_.sightings[0].box = {300 - size.width / 2, 300 - size.height, size.width, size.height};
     learnSize(0, 40'000'000, evidence_, state_);
   }
+  objects::Track& track() { return state_.tracks[0]; }
   [[nodiscard]] bool isSizeKnown() const { return state_.isSizeKnown(state_.tracks[0]); }
   [[nodiscard]] Size size() const {
     const objects::Extent& size = state_.tracks[0].size;
@@ -69,6 +70,20 @@ TEST(TrackSizes, WhereTheSceneSaysNothingWhatIsSeenCounts) {
   const Size wide = sizeAfterSeeing({60, 80}, {});
   EXPECT_NEAR(wide.width, 60, 1);
   EXPECT_EQ(wide.height, 80);
+}
+
+TEST(TrackSizes, WhatTurnsOutLargerHasNoPortraitOfBefore) {
+  for (const bool showsMovers : {false, true}) {
+    objects::TrackerState state;
+    state.showsMovers = showsMovers;
+    SeenTrack track(state, 0);
+    track.see({30, 80});
+    track.track().portrait.frames = 9;
+    track.see({30, 82});
+    EXPECT_EQ(track.track().portrait.frames, 9u);
+    track.see({60, 160});
+    EXPECT_EQ(track.track().portrait.frames, showsMovers ? 9u : 0u);
+  }
 }
 
 TEST(TrackSizes, AreKnownOnceTheyAgreeFrameAfterFrame) {

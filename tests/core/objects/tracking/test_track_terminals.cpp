@@ -96,7 +96,7 @@ class TrackTerminals : public ::testing::Test {
           state_.owner[cell] = task.track;
       });
     }
-    state_.blobs.find(evidence_, false);
+    state_.blobs.find(evidence_, true, false);
     state_.blobs.findOwners(evidence_, state_.tasks, state_.owner, state_.tracks.size());
     terminals.decide(evidence_, {motion_, weights_, kStepNs}, partedFrom_, state_);
   }
