@@ -205,7 +205,7 @@ struct Numbers {
     Number leastThings{8};     ///< Before they are said to be alike,
     Number alikeHeight{1, 4};  ///< off by no more,
     Number alikeWidth{9, 5};   ///< nor by this factor,
-    Number mostAlike{3, 4};    ///< so many of them.
+    Number mostUnlike{1, 4};   ///< but for this share of them.
     Number usual{1, 2};        ///< Of what a size is learnt from, the scene's says then.
   } sizes;
 

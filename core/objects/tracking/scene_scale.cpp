@@ -134,11 +134,11 @@ bool SceneScale::isAsExpected(const Sample& sample) const {
 bool SceneScale::areMostAlike() const {
   struct Thing {
     uint64_t id = 0;
-    int samples = 0, alike = 0;
+    int samples = 0, unlike = 0;
   };
   std::array<Thing, kBands * kSamples> things;
   size_t count = 0;
-  int samples = 0, alike = 0;
+  int samples = 0, unlike = 0;
   for (const Band& band : bands_)
     for (int i = 0; i < band.count(); ++i) {
       const Sample& sample = band.samples[static_cast<size_t>(i)];
@@ -146,18 +146,18 @@ bool SceneScale::areMostAlike() const {
       const auto known =
           std::find_if(things.begin(), end, [&](const Thing& t) { return t.id == sample.id; });
       if (known == end) things[count++].id = sample.id;
-      const bool isAlike = isAsExpected(sample);
+      const bool isUnlike = !isAsExpected(sample);
       ++known->samples;
-      known->alike += isAlike;
+      known->unlike += isUnlike;
       ++samples;
-      alike += isAlike;
+      unlike += isUnlike;
     }
   const auto end = things.begin() + static_cast<std::ptrdiff_t>(count);
-  const auto alikeThings =
-      std::count_if(things.begin(), end, [](const Thing& t) { return 2 * t.alike >= t.samples; });
+  const auto unlikeThings =
+      std::count_if(things.begin(), end, [](const Thing& t) { return 2 * t.unlike > t.samples; });
   const auto all = static_cast<int64_t>(count);
-  return all >= numbers_.leastThings.whole() && alike >= numbers_.mostAlike * samples &&
-         alikeThings >= numbers_.mostAlike * all;
+  return all >= numbers_.leastThings.whole() && unlike <= numbers_.mostUnlike * samples &&
+         unlikeThings <= numbers_.mostUnlike * all;
 }
 
 }  // namespace rg::objects
