@@ -13,9 +13,12 @@ using rg::objects::kEvidenceStep;
 __device__ int16_t carriedTo(Point p, const rg::motion::RegionMotion& m, const KnownView& known) {
   const Point from = rg::objects::cameFrom(p, m);
   if (!boundsOf(known.luma.size).contains(from)) return 0;
-  if (!rg::objects::showsTheSame(known.luma.at(p.x, p.y), known.previous.at(from.x, from.y)))
-    return 0;
   const Point sample = rg::objects::sampleAt(from, known.gains.size);
+  const Point nearest = rg::objects::pixelOf(sample);
+  const uint8_t shown = known.previous.at(from.x, from.y);
+  if (!rg::objects::showsTheSame(known.luma.at(p.x, p.y), shown) ||
+      !rg::objects::showsTheSame(shown, known.previous.at(nearest.x, nearest.y)))
+    return 0;
   return rg::objects::fadedGain(known.gains.at(sample.x, sample.y), known.left);
 }
 
@@ -23,7 +26,7 @@ __global__ void carrySamples(const __grid_constant__ KnownView known,
                              const __grid_constant__ CarriedView carried) {
   const Point at = pixelOfThread();
   const bool isInside = isWithin(at, carried.gains.size);
-  const Point p{at.x * kEvidenceStep, at.y * kEvidenceStep};
+  const Point p = rg::objects::pixelOf(at);
   const uint32_t label = isInside ? known.labels.at(p.x, p.y) : 0;
   const int16_t gain = label == 0 ? int16_t{0} : carriedTo(p, known.motions[label - 1], known);
   if (isInside) carried.gains.at(at.x, at.y) = gain;
@@ -51,7 +54,7 @@ void carryEvidence(const KnownView& known, const CarriedView& carried, Stream st
   clear(carried.sums, count * sizeof(int64_t), stream);
   clear(carried.samples, count * sizeof(uint32_t), stream);
   // A sample's byte costs a sector of 32.
-  start(launchOver("carrySamples", carried.gains.size, 1, {100 * samples, 60 * samples}), stream,
+  start(launchOver("carrySamples", carried.gains.size, 1, {132 * samples, 70 * samples}), stream,
         carrySamples, known, carried);
 }
 

@@ -31,6 +31,10 @@ __device__ bool isCompared(const ComparedPictures& pictures, const ComparedRegio
   const int from = p.y - region.shift.y;
   if (region.shift == Point{} || from < 0 || from >= pictures.luma.height()) return false;
   if (!rg::objects::isComparedRow(p.y, region.box, regions.everyRow)) return false;
+  const Point back = rg::objects::behind(p, region.shift);
+  const auto& labels = pictures.labels;
+  if (!boundsOf(labels.size).contains(back) || labels.at(back.x, back.y) != labels.at(p.x, p.y))
+    return false;
   const ShownRange columns =
       rg::objects::comparedColumns(pictures.shown[p.y], pictures.shown[from], region.shift.x);
   return p.x >= columns.first && p.x < columns.last;

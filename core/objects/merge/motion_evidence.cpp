@@ -27,8 +27,11 @@ struct KnownPixels {
   [[nodiscard]] int16_t carriedTo(Point p, const motion::RegionMotion& m) const {
     const Point from = cameFrom(p, m);
     if (!boundsOf(now.size).contains(from)) return 0;
-    if (!showsTheSame(now.at(p.x, p.y), before.at(from.x, from.y))) return 0;
-    const Point sample = sampleAt(from, gains.size);
+    const Point sample = sampleAt(from, gains.size), nearest = pixelOf(sample);
+    const uint8_t shown = before.at(from.x, from.y);
+    if (!showsTheSame(now.at(p.x, p.y), shown) ||
+        !showsTheSame(shown, before.at(nearest.x, nearest.y)))
+      return 0;
     return fadedGain(gains.at(sample.x, sample.y), left);
   }
 };
@@ -43,13 +46,12 @@ void carryEvidence(const KnownEvidence& known, const Executor& executor,
   const KnownPixels pixels(known);
   executor.forRows(grid.height, [&](int begin, int end) {
     for (int v = begin; v < end; ++v) {
-      const int y = v * kEvidenceStep;
-      const uint16_t* ids = labels.ids.row(y);
+      const uint16_t* ids = labels.ids.row(v * kEvidenceStep);
       for (int u = 0; u < grid.width; ++u) {
-        const int x = u * kEvidenceStep;
-        const auto label = segmentation::RegionLabel::ofNumber(ids[x]);
+        const Point p = pixelOf({u, v});
+        const auto label = segmentation::RegionLabel::ofNumber(ids[p.x]);
         gains.at(u, v) =
-            label ? pixels.carriedTo({x, y}, known.motion.regions[label.index()]) : int16_t{0};
+            label ? pixels.carriedTo(p, known.motion.regions[label.index()]) : int16_t{0};
       }
     }
   });

@@ -4,9 +4,10 @@
 //
 // One frame says little: a limb pauses, a wall looks alike a step further, a match is wrong. What
 // own_motion found is kept on a grid of samples, and goes along with what it was found of: a sample
-// takes over what lay where its region came from, if the previous frame shows the same there. What
-// a thing uncovers was not to be seen before, so that it has nothing to take over. Evidence fades
-// with time, and is taken back where pixels follow the ground; it never speaks for the ground.
+// takes over what lay where its region came from, if the previous frame shows the same there and at
+// the sample that is nearest to it, which may be another thing's. What a thing uncovers was not to
+// be seen before, so that it has nothing to take over. Evidence fades with time, and is taken back
+// where pixels follow the ground; it never speaks for the ground.
 //
 // Determinism: integers, each sample for itself.
 #pragma once
@@ -46,6 +47,10 @@ inline constexpr int kAllEvidence = 256;
 [[nodiscard]] constexpr bool showsTheSame(uint8_t now, uint8_t before) {
   constexpr int kAlikeLevels = 16;
   return absDiff(now, before) <= kAlikeLevels;
+}
+/// Where a sample is.
+[[nodiscard]] constexpr Point pixelOf(Point sample) {
+  return {sample.x * kEvidenceStep, sample.y * kEvidenceStep};
 }
 /// The sample that is nearest to a pixel.
 [[nodiscard]] constexpr Point sampleAt(Point pixel, Size grid) {

@@ -13,7 +13,9 @@
 //
 // A quarter of a region does not speak for all of it: of eight bands that lie along the shift the
 // two neighbours that gain most are left out, so that plain ground does not go with a mover of its
-// colour that was cut together with it. What really moves gains along its whole leading edge.
+// colour that was cut together with it. What really moves gains along its whole leading edge, and
+// little at its trailing one. So pixels behind which another region lies say nothing: of the ground
+// ahead of a mover they are half the mover's.
 // What a mover has just left says nothing, as it was not to be seen before: else the ground behind
 // it, which another piece of ground explains, would go with it. Nor does it if it is a part of the
 // mover; its neighbours then take it along.

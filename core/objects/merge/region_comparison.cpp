@@ -64,13 +64,24 @@ class Comparison {
   [[nodiscard]] const std::array<Sums, kBands>& run() {
     for (const Run& run : graph_.runs.of(region_)) {
       if (run.y != y_) beginRow(run.y);
-      if (isCompared_)
-        addRun({std::max<int>(run.begin, columns_.first), std::min<int>(run.end, columns_.last)});
+      if (isCompared_) forHeld(run, [&](int begin, int end) { addRun(begin, end); });
     }
     return bands_;
   }
 
  private:
+  /// Calls visit(begin, end) for the columns behind which is the region, too.
+  template <class Visit>
+  void forHeld(const Run& run, const Visit& visit) const {
+    const Point back = behind({}, shift_);
+    const auto runs = graph_.runs.of(region_);
+    auto held = std::lower_bound(runs.begin(), runs.end(), run.y + back.y,
+                                 [](const Run& r, int y) { return r.y < y; });
+    for (; held != runs.end() && held->y == run.y + back.y; ++held)
+      visit(std::max<int>(run.begin, held->begin - back.x),
+            std::min<int>(run.end, held->end - back.x));
+  }
+
   void beginRow(int y) {
     y_ = y;
     const int from = y - shift_.y;
@@ -85,7 +96,8 @@ class Comparison {
     if (isAcross_) band_ = bandOfRow(y, box_);
   }
 
-  void addRun(const ShownRange& seen) {
+  void addRun(int begin, int end) {
+    const ShownRange seen{std::max(begin, columns_.first), std::min(end, columns_.last)};
     if (hidden_ == nullptr) return addSpan(seen.first, seen.last);
     const auto isHiding = [&](uint16_t by) { return hidesFrom(label_.number(), by); };
     forVisible(hidden_, seen, isHiding, [&](int first, int last) { addSpan(first, last); });

@@ -45,6 +45,11 @@ static_assert([] {
   return true;
 }());
 
+/// The pixel behind another one that moves by the shift.
+[[nodiscard]] constexpr Point behind(Point p, Point shift) {
+  const auto sign = [](int v) { return (v > 0) - (v < 0); };
+  return {p.x - sign(shift.x), p.y - sign(shift.y)};
+}
 /// Whether a region's row is one of those that stand for all.
 [[nodiscard]] constexpr bool isComparedRow(int y, const Box& box, int everyRow) {
   return (y - box.y) % everyRow == 0;

@@ -88,6 +88,16 @@ TEST(MotionEvidence, IsNotTakenOverByWhatLooksOtherwise) {
   EXPECT_EQ(evidence.gainOf(1), 0);
 }
 
+TEST(MotionEvidence, IsNotTakenOverByTheGroundBeside) {
+  const Executor executor(1);
+  objects::Operations operations(executor);
+  objects::MotionEvidence evidence = evidenceOfSquare(operations);
+  motion::Motion motion = motionOf(1);
+  motion.regions[0].dx = 2 * motion::kMotionUnit;  // From where a sample of the square is nearest.
+  evidence.carry(motion, pictureOf(0).get(), kStepNs, operations);
+  EXPECT_EQ(evidence.gainOf(0), 0);
+}
+
 TEST(MotionEvidence, AChangeOfSizeOrSceneForgetsIt) {
   const Executor executor(1);
   objects::Operations operations(executor);
