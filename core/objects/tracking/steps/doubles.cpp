@@ -18,7 +18,8 @@ bool areOneBody(const TrackerState& state, size_t a, size_t b) {
   const int columns = std::min(first.right(), second.right()) - std::max(first.x, second.x);
   if (state.showsMovers && !state.blobs.areTogether(a, b)) return false;
   if (std::min(p.apartNs, q.apartNs) >= n.doubled.whole()) return false;
-  if (state.outgrows(p, both) || state.outgrows(q, both)) return false;
+  // What a moving camera shows of a body comes and goes, so that a part's size says nothing.
+  if (!state.showsMovers && (state.outgrows(p, both) || state.outgrows(q, both))) return false;
   if (!state.scale.isUniform() && state.blobs.has(a) && state.blobs.areTogether(a, b)) return true;
   if (columns < n.oneBodyColumns * std::min(first.width, second.width)) return false;
   if (!state.scale.isUniform()) {

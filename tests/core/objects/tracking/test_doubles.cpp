@@ -73,27 +73,42 @@ TEST_F(Doubles, WhoWereBothSeenApartStayTwoHoweverLongTheyLookLikeOneBody) {
   EXPECT_TRUE(state_.tracks[1].isOver);
 }
 
-TEST_F(Doubles, BeforeAMovingCameraAreTwoThingsIfTheEnergyPartsThem) {
-  // Body and foot touch, each of a group of its own.
-  evidence_.frame = evidence_.grid = {8, 4};
-  evidence_.group.assign(24, 1);
-  evidence_.group.resize(32, 2);
-  evidence_.listRuns();
-  for (const bool showsMovers : {true, false}) {
+/// A body and its lower part, which touch and are of the same group or not.
+class HalvesOfABody : public Doubles {
+ protected:
+  /// Whether they are joined in the end.
+  bool areJoined(bool showsMovers, uint16_t groupBelow, uint32_t sizeSamples) {
+    evidence_.frame = evidence_.grid = {8, 4};
+    evidence_.group.assign(24, 1);
+    evidence_.group.resize(32, groupBelow);
+    evidence_.listRuns();
     state_ = {};
     state_.showsMovers = showsMovers;
     state_.blobs.find(evidence_, true, false);
-    add(state_, {95, 100, 40, 100}, 200);
-    add(state_, {100, 200, 20, 16}, 10);
+    add(state_, {95, 100, 40, 60}, 200);
+    add(state_, {100, 160, 20, 40}, 100);
+    for (objects::Track& track : state_.tracks) track.sizeSamples = sizeSamples;
+    std::vector<uint16_t> owner(24, 1);
+    owner.resize(32, 2);
     state_.tasks.resize(2);
     state_.tasks[0].track = 1;
     state_.tasks[0].fitted = {0, 0, 8, 3};
     state_.tasks[1].track = 2;
     state_.tasks[1].fitted = {0, 3, 8, 1};
-    state_.blobs.findOwners(evidence_, state_.tasks, evidence_.group, 2);
-    objects::joinDoubles(40'000'000, state_);
-    EXPECT_EQ(state_.tracks[1].isOver, !showsMovers);
+    state_.blobs.findOwners(evidence_, state_.tasks, owner, 2);
+    for (int frame = 0; frame < 20; ++frame) objects::joinDoubles(40'000'000, state_);
+    return state_.tracks[1].isOver;
   }
+};
+
+TEST_F(HalvesOfABody, AreTwoThingsBeforeAMovingCameraIfTheEnergyPartsThem) {
+  EXPECT_FALSE(areJoined(true, 2, 0));
+  EXPECT_TRUE(areJoined(false, 2, 0));
+}
+
+TEST_F(HalvesOfABody, AreOneBeforeAMovingCameraHoweverWellTheirSizesSeemKnown) {
+  EXPECT_TRUE(areJoined(true, 1, 100));
+  EXPECT_FALSE(areJoined(false, 1, 100));
 }
 
 }  // namespace
