@@ -20,9 +20,11 @@ __global__ void coverPixels(ImageView<const uint16_t> labels, const ComparedRegi
   if (!isWithin(p, labels.size)) return;
   const uint32_t label = labels.at(p.x, p.y);
   if (label == 0 || regions[label - 1].moves == 0) return;
-  const Point by = regions[label - 1].covered, from{p.x - by.x, p.y - by.y};
-  if (boundsOf(labels.size).contains(from))
-    atomicMax(hidden + from.y * labels.width() + from.x, label);
+  for (const Point by : rg::objects::coveredBy(regions[label - 1].covered)) {
+    const Point from{p.x - by.x, p.y - by.y};
+    if (boundsOf(labels.size).contains(from))
+      atomicMax(hidden + from.y * labels.width() + from.x, label);
+  }
 }
 
 /// Whether a region's pixel can be compared.
@@ -57,11 +59,14 @@ __global__ void comparePixels(const __grid_constant__ ComparedPictures pictures,
         !(regions.hidesAny &&
           rg::objects::hidesFrom(static_cast<uint16_t>(label),
                                  hidden[p.y * pictures.labels.width() + p.x]))) {
-      const int now = pictures.luma.at(p.x, p.y);
+      const uint8_t now = pictures.luma.at(p.x, p.y);
       const Point by = region.shift;
       band = (label - 1) * kBands + static_cast<uint32_t>(bandOf(region, p));
-      still = static_cast<uint32_t>(absDiff(now, pictures.expected.at(p.x, p.y)));
-      moved = static_cast<uint32_t>(absDiff(now, pictures.expected.at(p.x - by.x, p.y - by.y)));
+      const auto differenceFrom = [&](int x, int y) {
+        return rg::objects::limitedDifference(now, pictures.expected.at(x, y), region.mostLevels);
+      };
+      still = differenceFrom(p.x, p.y);
+      moved = differenceFrom(p.x - by.x, p.y - by.y);
     }
   }
   const LaneRun run = runOfLane(band);
@@ -71,6 +76,12 @@ __global__ void comparePixels(const __grid_constant__ ComparedPictures pictures,
   addSum(bands[band].still, still);
   addSum(bands[band].moved, moved);
   addSum(bands[band].pixels, static_cast<uint64_t>(run.before) + 1);
+}
+
+/// A kernel, as graphs of launches are made again where other sizes are cleared.
+__global__ void clearBands(Sums* bands, int count) {
+  const int i = indexInGrid();
+  if (i < count) bands[i] = {};
 }
 
 __global__ void sumBands(const __grid_constant__ RegionList regions, const Sums* bands,
@@ -93,10 +104,12 @@ void compareRegions(const ComparedPictures& pictures, const RegionList& regions,
   const Size size = pictures.labels.size;
   const auto pixels = static_cast<double>(size.area()), count = static_cast<double>(regions.count);
   const auto list = static_cast<double>(sizeof(Sums)) * kBands * count;
-  clear(out.bands, sizeof(Sums) * kBands * static_cast<size_t>(regions.count), stream);
+  const int bands = kBands * regions.count;
+  start(launchOverList("clearBands", bands, {list, 4 * static_cast<double>(bands)}), stream,
+        clearBands, out.bands, bands);
   if (regions.hidesAny) {
     clear(out.hidden, sizeof(uint32_t) * static_cast<size_t>(size.area()), stream);
-    start(launchOver("coverPixels", size, 1, {6 * pixels, 10 * pixels}), stream, coverPixels,
+    start(launchOver("coverPixels", size, 1, {10 * pixels, 16 * pixels}), stream, coverPixels,
           pictures.labels, regions.list, out.hidden);
   }
   const double hidden = regions.hidesAny ? 4 : 0;

@@ -17,7 +17,9 @@ struct ComparedRegion {
   Point shift;    ///< That is tried; {} = none.
   Point covered;  ///< By how much it moves, if it does.
   Box box;
-  uint32_t moves = 0;
+  uint8_t moves = 0;
+  uint8_t mostLevels = 255;  ///< That the difference of a pixel counts, the same for all regions:
+                             ///< here, as graphs are made for the arguments of their kernels.
 };
 
 /// labels: 1 … count, 0: none. expected and shown: as warpByCamera() writes them.

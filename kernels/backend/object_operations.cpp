@@ -110,8 +110,8 @@ class GpuOperations final : public Cpu, private Dispatcher {
   void listRegions(const ComparedRegions& in, const OwnMotionScratch& s) {
     regions_.clear();
     for (size_t i = 0; i < s.trials.size(); ++i)
-      regions_.push_back(
-          {s.trials[i].shift, in.own[i].shift, in.motion.graph->regions[i].box, s.moves[i]});
+      regions_.push_back({s.trials[i].shift, in.own[i].shift, in.motion.graph->regions[i].box,
+                          s.moves[i], s.mostLevels});
   }
 
   /// Leaves in sums_ and samples_ what they are.

@@ -73,6 +73,7 @@ struct Trials {
     warpByCamera(moved.before.luma(), camera, oneThread(), s.expected,
                  std::span(s.shown.row(0), static_cast<size_t>(size.height)));
     s.everyRow = everyRow;
+    s.mostLevels = static_cast<uint8_t>(15 + 40 * everyRow);
     s.hidesAny = hidesAny;
     s.trials.resize(moved.count());
     for (size_t i = 0; i < moved.count(); ++i) {
@@ -85,7 +86,8 @@ struct Trials {
   [[nodiscard]] std::vector<gpu::objects::ComparedRegion> listed(const graph::Graph& graph) const {
     std::vector<gpu::objects::ComparedRegion> list;
     for (size_t i = 0; i < own.size(); ++i)
-      list.push_back({s.trials[i].shift, own[i].shift, graph.regions[i].box, s.moves[i]});
+      list.push_back(
+          {s.trials[i].shift, own[i].shift, graph.regions[i].box, s.moves[i], s.mostLevels});
     return list;
   }
 };

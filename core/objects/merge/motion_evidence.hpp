@@ -45,7 +45,6 @@ inline constexpr int kAllEvidence = 256;
 }
 /// Whether a pixel may show the same thing still.
 [[nodiscard]] constexpr bool showsTheSame(uint8_t now, uint8_t before) {
-  constexpr int kAlikeLevels = 16;
   return absDiff(now, before) <= kAlikeLevels;
 }
 /// Where a sample is.

@@ -16,6 +16,12 @@ constexpr int64_t kNoiseUnit = 16;
 // In deviations of what noise gains: the best of thousands of shifts, and one that others suggest.
 constexpr int64_t kSearchGain = 4;
 constexpr int64_t kNoiseGain = 1;
+// In noise: by how much a pixel of the same thing can differ where that is more than kAlikeLevels.
+// Beyond it shows something else, whatever that is.
+constexpr uint64_t kMostNoise = 6;
+// What a thing gains grows with its area, all else in U with its lengths. Between frames of other
+// sizes it does so, too, as neighbours err alike: a pixel counts once in one of so many a side.
+constexpr int64_t kGainSide = 832;
 // Pixels that a round compares, but for a row of each region: all of a frame of 800x600, a quarter
 // of one of 1920x1080. Beyond it, rows are like those beside them.
 constexpr uint64_t kMostCompared = uint64_t{1} << 19;
@@ -73,6 +79,8 @@ void measureNoise(OwnMotionScratch& s) {
     pixels += trial.sums.pixels;
   }
   s.noise = pixels == 0 ? kNoiseUnit : std::max(uint64_t{kNoiseUnit}, kNoiseUnit * sum / pixels);
+  s.mostLevels = static_cast<uint8_t>(
+      std::clamp<uint64_t>(kMostNoise * s.noise / kNoiseUnit, kAlikeLevels, 255));
 }
 
 /// deviations: of its noise, by as many the gain has to be the larger.
@@ -86,7 +94,9 @@ int64_t gainOf(const Sums& sums, int64_t deviations, uint64_t noise) {
 /// The same for all of a region's rows, where those that were compared stand for them.
 int64_t gainOfAll(const Trial& trial, int height, int64_t deviations, const OwnMotionScratch& s) {
   const int64_t compared = (height + s.everyRow - 1) / s.everyRow;
-  return gainOf(trial.sums, deviations, s.noise) * height / compared;
+  const auto side =
+      static_cast<int64_t>(integerSqrt(static_cast<uint64_t>(s.expected.size().area())));
+  return gainOf(trial.sums, deviations, s.noise) * height / compared * kGainSide / side;
 }
 
 /// What holds each region to what moves, and which of those has the longest border with it.
@@ -169,6 +179,7 @@ void findOwnMotion(const motion::Motion& motion, const ComparedFrame& compared,
   const size_t count = motion.regions.size();
   s.trials.assign(count, {});
   s.mostPixels = 0;
+  s.mostLevels = 255;  // Until the noise is known.
   s.rounds = 0;
   for (size_t i = 0; i < count; ++i)
     if (own[i].isTried())

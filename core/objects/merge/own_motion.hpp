@@ -18,7 +18,11 @@
 // ahead of a mover they are half the mover's.
 // What a mover has just left says nothing, as it was not to be seen before: else the ground behind
 // it, which another piece of ground explains, would go with it. Nor does it if it is a part of the
-// mover; its neighbours then take it along.
+// mover; its neighbours then take it along. The pixel behind is left with it: half of that was the
+// mover's.
+//
+// A pixel that differs by more than noise can shows something else, and says no more than that:
+// a few of strong contrast don't outweigh all others of a region.
 //
 // All shifts are whole pixels away from the camera's, so that interpolation smooths the noise of
 // both sides alike. Determinism: integer sums over pixels; rounds read the state before them.
@@ -40,12 +44,15 @@ namespace rg::objects {
 
 class Operations;
 
+inline constexpr int kAlikeLevels = 16;  ///< By as much a pixel of the same thing may differ.
+
 /// What speaks for a region's moving otherwise than the camera.
 struct OwnMotion {
   Point
       shift;  ///< Whole pixels beyond the camera's that were tried; {} = none, it is the ground's.
   int64_t gain = 0;  ///< Of the pixels by that shift, in units (1/kGainUnit) of the noise of one
-                     ///< pixel; below 0 where the camera's motion explains them better.
+                     ///< pixel in a frame of 832x832; below 0 where the camera's motion explains
+                     ///< them better.
   [[nodiscard]] bool isTried() const { return shift != Point{}; }
   friend constexpr bool operator==(const OwnMotion&, const OwnMotion&) = default;
 };
@@ -75,6 +82,7 @@ struct OwnMotionScratch {
   };
   std::vector<Surroundings> around;  ///< Of each region.
   uint64_t noise = 0;                ///< Mean difference of a pixel, in 1/16 grey level.
+  uint8_t mostLevels = 255;          ///< That the difference of a pixel counts.
   int everyRow = 1;                  ///< Of a region's rows one in so many is compared.
   bool hidesAny = false;             ///< Something moves, so that `hidden` is not all 0.
   uint64_t mostPixels = 0;           ///< That a round of the last call compared.

@@ -17,11 +17,11 @@ constexpr int kShortRun = 8;  // Pixels: of fewer, choosing the instruction set 
 
 using Sums = OwnMotionScratch::Sums;
 
-simd::DifferenceSums sumFew(const simd::ComparedRows& rows, int count) {
+simd::DifferenceSums sumFew(const simd::ComparedRows& rows, int count, uint8_t most) {
   simd::DifferenceSums sums;
   for (int i = 0; i < count; ++i) {
-    sums.still += static_cast<uint32_t>(absDiff(rows.now[i], rows.still[i]));
-    sums.moved += static_cast<uint32_t>(absDiff(rows.now[i], rows.moved[i]));
+    sums.still += limitedDifference(rows.now[i], rows.still[i], most);
+    sums.moved += limitedDifference(rows.now[i], rows.moved[i], most);
   }
   return sums;
 }
@@ -113,8 +113,8 @@ class Comparison {
     if (first >= last) return;
     const simd::ComparedRows rows{now_ + first, still_ + first, moved_ + (first - shift_.x)};
     const simd::DifferenceSums sums = last - first < kShortRun
-                                          ? sumFew(rows, last - first)
-                                          : simd::sumDifferences(rows, last - first);
+                                          ? sumFew(rows, last - first, s_.mostLevels)
+                                          : simd::sumDifferences(rows, last - first, s_.mostLevels);
     Sums& sum = bands_[band];
     sum.still += sums.still;
     sum.moved += sums.moved;
@@ -156,16 +156,17 @@ void forCovered(const graph::Graph& graph, std::span<const OwnMotion> own, const
   executor.forRows(graph.size.height, [&](int begin, int end) {
     for (size_t i = 0; i < own.size(); ++i) {
       if (s.moves[i] == 0) continue;
-      const Point shift = own[i].shift;
       const auto runs = graph.runs.of(i);
-      auto run = std::lower_bound(runs.begin(), runs.end(), begin + shift.y,
-                                  [](const Run& r, int y) { return r.y < y; });
-      for (; run != runs.end() && run->y < end + shift.y; ++run) {
-        const int first = std::max(run->begin - shift.x, 0);
-        const int last = std::min(run->end - shift.x, graph.size.width);
-        if (first < last)
-          visit(s.hidden.row(run->y - shift.y) + first, last - first,
-                segmentation::RegionLabel::ofIndex(i).number());
+      for (const Point by : coveredBy(own[i].shift)) {
+        auto run = std::lower_bound(runs.begin(), runs.end(), begin + by.y,
+                                    [](const Run& r, int y) { return r.y < y; });
+        for (; run != runs.end() && run->y < end + by.y; ++run) {
+          const int first = std::max(run->begin - by.x, 0);
+          const int last = std::min(run->end - by.x, graph.size.width);
+          if (first < last)
+            visit(s.hidden.row(run->y - by.y) + first, last - first,
+                  segmentation::RegionLabel::ofIndex(i).number());
+        }
       }
     }
   });

@@ -3,9 +3,11 @@
 // of core/objects/merge/own_motion.hpp, which tells what is left out and why).
 #pragma once
 
+#include "core/base/pixel.hpp"
 #include "core/objects/merge/own_motion.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -13,9 +15,9 @@
 namespace rg::objects {
 
 /// Fills in the sums of the trials that have a shift, over pixels that can be compared with and
-/// without it; reads s.expected, s.shown, s.everyRow and s.moves, and leaves s.hidden as it was.
-/// own: of each region what is known, of those that move the shift. Cost: follows the pixels and
-/// runs of those regions, and of the movers.
+/// without it; reads s.expected, s.shown, s.mostLevels, s.everyRow and s.moves, and leaves s.hidden
+/// as it was. own: of each region what is known, of those that move the shift. Cost: follows the
+/// pixels and runs of those regions, and of the movers.
 void compareRegions(const motion::Motion& motion, std::span<const OwnMotion> own,
                     const Executor& executor, OwnMotionScratch& s);
 
@@ -49,6 +51,16 @@ static_assert([] {
 [[nodiscard]] constexpr Point behind(Point p, Point shift) {
   const auto sign = [](int v) { return (v > 0) - (v < 0); };
   return {p.x - sign(shift.x), p.y - sign(shift.y)};
+}
+/// By how much a pixel differs; of two that don't show the same it says nothing more.
+[[nodiscard]] constexpr uint32_t limitedDifference(uint8_t a, uint8_t b, uint8_t most) {
+  return static_cast<uint32_t>(std::min<int>(absDiff(a, b), most));
+}
+/// By how much earlier lies what a mover that has moved by the shift covered: all of its own, and
+/// the pixel behind, of which half was its.
+[[nodiscard]] constexpr std::array<Point, 2> coveredBy(Point shift) {
+  const Point back = behind({}, shift);
+  return {shift, {shift.x - back.x, shift.y - back.y}};
 }
 /// Whether a region's row is one of those that stand for all.
 [[nodiscard]] constexpr bool isComparedRow(int y, const Box& box, int everyRow) {

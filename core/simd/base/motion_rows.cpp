@@ -78,18 +78,18 @@ void sumBoxRow(const BoxRows& from, int count, uint16_t* HWY_RESTRICT to) {
     to[i] = static_cast<uint16_t>(to[i] + to[i + 1] + to[i + 2] + to[i + 3]);
 }
 
-uint32_t difference(uint8_t a, uint8_t b) {
-  const int d = a - b;
-  return static_cast<uint32_t>(d < 0 ? -d : d);
+uint8_t difference(uint8_t a, uint8_t b, uint8_t most) {
+  const auto d = static_cast<uint8_t>(a > b ? a - b : b - a);
+  return d < most ? d : most;
 }
 
-DifferenceSums sumDifferences(const ComparedRows& rows, int count) {
+DifferenceSums sumDifferences(const ComparedRows& rows, int count, uint8_t most) {
   const uint8_t *HWY_RESTRICT now = rows.now, *HWY_RESTRICT still = rows.still,
                               *HWY_RESTRICT moved = rows.moved;
   DifferenceSums sums;
   for (int i = 0; i < count; ++i) {
-    sums.still += difference(now[i], still[i]);
-    sums.moved += difference(now[i], moved[i]);
+    sums.still += difference(now[i], still[i], most);
+    sums.moved += difference(now[i], moved[i], most);
   }
   return sums;
 }
@@ -139,9 +139,9 @@ void sumBoxRow(const BoxRows& from, int count, uint16_t* to) {
   HWY_DYNAMIC_DISPATCH(sumBoxRow)(from, count, to);
 }
 
-DifferenceSums sumDifferences(const ComparedRows& rows, int count) {
-  if (count < kShort) return HWY_STATIC_DISPATCH(sumDifferences)(rows, count);
-  return HWY_DYNAMIC_DISPATCH(sumDifferences)(rows, count);
+DifferenceSums sumDifferences(const ComparedRows& rows, int count, uint8_t most) {
+  if (count < kShort) return HWY_STATIC_DISPATCH(sumDifferences)(rows, count, most);
+  return HWY_DYNAMIC_DISPATCH(sumDifferences)(rows, count, most);
 }
 
 bool isAnySet(const uint16_t* values, int count) {

@@ -49,7 +49,7 @@ struct BoxRows {
 };
 void sumBoxRow(const BoxRows& from, int count, uint16_t* to);
 
-/// Sums of |now − still| and |now − moved|.
+/// Sums of |now − still| and |now − moved|, of which none counts more than `most`.
 struct DifferenceSums {
   uint32_t still = 0;
   uint32_t moved = 0;
@@ -57,7 +57,7 @@ struct DifferenceSums {
 struct ComparedRows {
   const uint8_t *now, *still, *moved;
 };
-[[nodiscard]] DifferenceSums sumDifferences(const ComparedRows& rows, int count);
+[[nodiscard]] DifferenceSums sumDifferences(const ComparedRows& rows, int count, uint8_t most);
 
 /// Whether any of them is not 0.
 [[nodiscard]] bool isAnySet(const uint16_t* values, int count);

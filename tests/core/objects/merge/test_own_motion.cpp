@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdlib>
 
 namespace rg {
@@ -68,6 +69,7 @@ objects::ComparedFrame since(const Picture& previous, const motion::Motion& moti
 struct Found {
   std::vector<uint8_t> moves;
   int rounds = 0;
+  std::vector<objects::OwnMotion> own;
 };
 
 Found searchFor(const Picture& previous, std::shared_ptr<const segmentation::Labels> labels,
@@ -81,7 +83,7 @@ Found searchFor(const Picture& previous, std::shared_ptr<const segmentation::Lab
   const Executor executor(1);
   objects::Operations operations(executor);
   objects::findOwnMotion(motion, since(previous, motion), rules, operations, scratch, own);
-  return {scratch.moves, scratch.rounds};
+  return {scratch.moves, scratch.rounds, own};
 }
 
 std::vector<uint8_t> moversOf(const Picture& previous,
@@ -209,6 +211,44 @@ TEST(OwnMotion, GroundDoesNotGoWithAnEndOfItThatMoves) {
     return Box{o.x - 4, 2, 24, 40}.contains({x, y}) ? 2 : 1;
   });
   EXPECT_THAT(moversOf(*at(0), labels, {kCamera, {9, 1}, {9, 1}}), ElementsAre(0, 0, 1));
+}
+
+TEST(OwnMotion, GroundDoesNotGoWithAFewPixelsOfStrongContrast) {
+  // Half of what moves was cut together with three times as much ground of little contrast.
+  const TwoFrames frames({9, 1});
+  const auto at = [&](int time) {
+    return scenes::paintGrey(kSize, [&](int x, int y) {
+      const Point o = frames.squareAt(time);
+      const int level = frames.levelAt(x, y, time);
+      return Box{o.x, o.y, 16, 16}.contains({x, y}) ? level : 100 + level / 8;
+    });
+  };
+  const Point o = frames.squareAt(1);
+  const auto labels = scenes::label(at(1), 3, [&](int x, int y) {
+    if (Box{o.x, o.y + 8, 16, 8}.contains({x, y})) return 3;
+    return Box{o.x - 4, o.y - 8, 24, 16}.contains({x, y}) ? 2 : 1;
+  });
+  EXPECT_THAT(moversOf(*at(0), labels, {kCamera, {9, 1}, {9, 1}}), ElementsAre(0, 0, 1));
+}
+
+/// Of a square of 16x16.
+int64_t gainIn(Size frame) {
+  const TwoFrames frames({9, 1});
+  const auto at = [&](int time) {
+    return scenes::paintGrey(frame, [&](int x, int y) { return frames.levelAt(x, y, time); });
+  };
+  const Point o = frames.squareAt(1);
+  const auto labels = scenes::label(at(1), 2, [&](int x, int y) {
+    return Box{o.x, o.y, 16, 16}.contains({x, y}) ? 2 : 1;
+  });
+  return searchFor(*at(0), labels, {kCamera, {9, 1}}).own[1].gain;
+}
+
+TEST(OwnMotion, GainsAsALengthDoesFromFrameToFrameOfOtherSizes) {
+  const int64_t gain = gainIn({96, 96});
+  EXPECT_GT(gain, 0);
+  EXPECT_NEAR(static_cast<double>(gainIn({192, 192})), static_cast<double>(gain) / 2, 1);
+  EXPECT_NEAR(static_cast<double>(gainIn({96, 384})), static_cast<double>(gain) / 2, 1);
 }
 
 /// Of a square and of a piece of plain ground ahead of it, whose first pixels are half the
@@ -346,10 +386,11 @@ class Plainly {
   [[nodiscard]] bool isHidden(int x, int y, size_t region) const {
     size_t by = moves_.size();
     for (size_t i = 0; i < moves_.size(); ++i) {
-      const Point to{x + own_[i].shift.x, y + own_[i].shift.y};
-      if (moves_[i] != 0 && boundsOf(labels_.size).contains(to) &&
-          labels_.ids.at(to.x, to.y) == i + 1)
-        by = i;
+      const auto isOwn = [&](Point to) {
+        return boundsOf(labels_.size).contains(to) && labels_.ids.at(to.x, to.y) == i + 1;
+      };
+      const Point shift = own_[i].shift, to{x + shift.x, y + shift.y};
+      if (moves_[i] != 0 && (isOwn(to) || isOwn(behind(to, {-shift.x, -shift.y})))) by = i;
     }
     return by != moves_.size() && by != region;
   }
@@ -384,8 +425,8 @@ class Plainly {
         if (labels_.ids.at(x, y) != region + 1 || !isShown(x, y) || !isShown(from.x, from.y) ||
             isHidden(x, y, region) || !isHeld(x, y, shift))
           continue;
-        const int still = absDiff(now_.at(x, y), expected(x, y));
-        const int moved = absDiff(now_.at(x, y), expected(from.x, from.y));
+        const int still = std::min(absDiff(now_.at(x, y), expected(x, y)), mostLevels_);
+        const int moved = std::min(absDiff(now_.at(x, y), expected(from.x, from.y)), mostLevels_);
         size_t band = 0;
         if (std::abs(shift.x) >= std::abs(shift.y))
           band = static_cast<size_t>(8 * (y - box.y) / box.height);
@@ -415,14 +456,19 @@ class Plainly {
       noise += std::min(sums[i].still, sums[i].moved);
       pixels += sums[i].pixels;
     }
-    if (isSearched) noise_ = std::max<int64_t>(16, 16 * noise / pixels);
+    if (isSearched) {
+      noise_ = std::max<int64_t>(16, 16 * noise / pixels);
+      mostLevels_ = static_cast<int>(std::clamp<int64_t>(6 * noise_ / 16, 16, 255));
+    }
     const auto before = moves_;
     for (size_t i = 0; i < shifts.size(); ++i) {
       if (shifts[i] == Point{}) continue;
       const Sums& s = sums[i];
-      own_[i] = {shifts[i], 256 * 16 * (s.still - s.moved - s.pixels / 4) / noise_ -
-                                256 * (isSearched ? 4 : 1) *
-                                    int64_t{integerSqrt(static_cast<uint64_t>(s.pixels))}};
+      const int64_t gain =
+          256 * 16 * (s.still - s.moved - s.pixels / 4) / noise_ -
+          256 * (isSearched ? 4 : 1) * int64_t{integerSqrt(static_cast<uint64_t>(s.pixels))};
+      const auto side = static_cast<int64_t>(std::sqrt(static_cast<double>(labels_.size.area())));
+      own_[i] = {shifts[i], gain * 832 / side};
       int64_t sides = 0;  // What moving gains at the borders, less what it costs.
       for (size_t n = 0; n < energies_.size(); ++n) {
         const graph::Arc& arc = motion_.graph->arcs[n];
@@ -461,6 +507,7 @@ class Plainly {
   std::vector<objects::OwnMotion> own_;
   std::vector<uint8_t> moves_;
   int64_t noise_ = 16;
+  int mostLevels_ = 255;
 };
 
 /// Ragged tiles, some of which move otherwise than the camera, with vectors right and wrong.
