@@ -19,7 +19,7 @@ struct ComparedRegion {
   Box box;
   uint8_t moves = 0;
   uint8_t mostLevels = 255;  ///< That the difference of a pixel counts, the same for all regions:
-                             ///< here, as graphs are made for the arguments of their kernels.
+                             ///< here, as what changes in a kernel's arguments updates its graph.
 };
 
 /// labels: 1 … count, 0: none. expected and shown: as warpByCamera() writes them.

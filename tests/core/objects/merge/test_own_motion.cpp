@@ -214,7 +214,7 @@ TEST(OwnMotion, GroundDoesNotGoWithAnEndOfItThatMoves) {
 }
 
 TEST(OwnMotion, GroundDoesNotGoWithAFewPixelsOfStrongContrast) {
-  // Half of what moves was cut together with three times as much ground of little contrast.
+  // Half of what moves was cut together with twice as much ground of little contrast.
   const TwoFrames frames({9, 1});
   const auto at = [&](int time) {
     return scenes::paintGrey(kSize, [&](int x, int y) {
