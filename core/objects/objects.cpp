@@ -41,7 +41,8 @@ class ObjectStage final : public Stage {
   MergeInput mergeByEnergy(const motion::Motion& motion, const MergeWeights& weights,
                            int64_t stepNs, Objects& objects);
   void nameGroups(const motion::Motion& shown, Objects& objects);
-  void expectLabels(const graph::Graph& graph, int64_t stepNs, Objects& objects);
+  void expectLabels(const motion::Motion& motion, bool isByVectors, int64_t stepNs,
+                    Objects& objects);
   void startGroups();
   void recallStanding(const graph::Graph& graph, Objects& objects);
   void tieToGround(const graph::Graph& graph, const MergeWeights& weights,
@@ -106,10 +107,14 @@ void ObjectStage::reset(Reset what) {
 }
 
 /// The objects of the previous frame, moved as they are expected to, name the regions of this one.
-void ObjectStage::expectLabels(const graph::Graph& graph, int64_t stepNs, Objects& objects) {
+void ObjectStage::expectLabels(const motion::Motion& motion, bool isByVectors, int64_t stepNs,
+                               Objects& objects) {
+  const graph::Graph& graph = *motion.graph;
   expected_.assign(graph.regions.size(), {});
   objects.regionExpected.assign(graph.regions.size(), 0);
   if (tracker_.owner().empty() || evidence_.frame != graph.size) return;
+  if (isByVectors && motion.status != Status::Skipped)
+    tracker_.measure(motion, objects.camera, stepNs, evidence_);
   shifts_.clear();
   for (const Track& track : tracker_.tracks())
     shifts_.push_back(expectedShift(track, objects.camera, stepNs));
@@ -133,8 +138,9 @@ MergeInput ObjectStage::mergeRegions(const Input& in, const Params& params, int6
   const MergeWeights weights = weightsOf(params, graph.size, stepNs);
   const bool isStill = graph.labels->scope != segmentation::Scope::Frame;
   if (!isStill && motion.status != Status::Skipped) objects.setCamera(motion.camera);
-  if (isStill || params.method == Method::Literal) movers_.reset();
-  expectLabels(graph, stepNs, objects);
+  const bool tellsMovers = !isStill && params.method != Method::Literal;
+  if (!tellsMovers) movers_.reset();
+  expectLabels(motion, tellsMovers, stepNs, objects);
   if (params.method == Method::Literal) return mergeByEnergy(motion, weights, stepNs, objects);
   if (isStill) {
     followTrends(motion, *context_.cpu, trends_, trend_, params.numbers.layers);

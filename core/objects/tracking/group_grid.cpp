@@ -35,13 +35,6 @@ void layGrid(Size frame, GroupGrid& e) {
       frame.height, e.grid.height, [&](int y) { return e.middleOf(0, y).y; }, e.cellFromRow);
 }
 
-/// The cells whose middles lie in a run of pixels.
-Run cellsIn(const GroupGrid& e, const Run& run) {
-  const uint16_t y = e.cellFromRow[run.y];
-  if (e.cellFromRow[run.y + 1u] == y) return {};
-  return {y, e.cellFromColumn[run.begin], e.cellFromColumn[run.end]};
-}
-
 void findBins(const Picture& picture, const Run& cells, GroupGrid& e) {
   const int y = e.middleOf(0, cells.y).y;
   const uint8_t *red = picture.red().row(y), *green = picture.green().row(y);
@@ -71,7 +64,7 @@ void gather(const graph::Graph& graph, std::span<const GroupIndex> groupOf,
     const GroupIndex group = groupOf[region];
     if (isBackground[group.index()]) continue;
     for (const Run& run : graph.runs.of(region)) {
-      const Run found = cellsIn(e, run);
+      const Run found = e.cellsIn(run);
       const int count = found.end - found.begin;
       if (count == 0) continue;
       const size_t first = e.at(found.begin, found.y);

@@ -47,6 +47,12 @@ struct GroupGrid {
     return {std::min(x * stepPx + half, frame.width - 1),
             std::min(y * stepPx + half, frame.height - 1)};
   }
+  /// The cells whose middles lie in a run of pixels.
+  [[nodiscard]] Run cellsIn(const Run& pixels) const {
+    const uint16_t y = cellFromRow[pixels.y];
+    if (cellFromRow[pixels.y + 1u] == y) return {};
+    return {y, cellFromColumn[pixels.begin], cellFromColumn[pixels.end]};
+  }
   [[nodiscard]] size_t at(int x, int y) const {
     return static_cast<size_t>(y) * static_cast<size_t>(grid.width) + static_cast<size_t>(x);
   }

@@ -27,6 +27,13 @@ Point Track::portraitCorner(Point camera) const {
           px(int64_t{foot} + camera.y) - sizePx.height};
 }
 
+void Track::setStep(Point step, const CameraMotion& camera, int64_t stepNs) {
+  const Point by = camera.since({x, foot - size.height / 2});
+  const int64_t stepUs = std::max<int64_t>(stepNs / 1000, 1000);
+  stepSpeed = Point{toInt((int64_t{step.x} - by.x) * kSecondUs / stepUs),
+                    toInt((int64_t{step.y} - by.y) * kSecondUs / stepUs)};
+}
+
 Place placeOfPart(const Track& track, const Box& part, Size frame) {
   constexpr int64_t kUnseen = INT32_MAX;  // At the frame's border nothing says where it ends.
   const auto offset = [](int64_t low, int64_t high, int64_t expectedLow, int64_t expectedHigh) {
@@ -50,7 +57,8 @@ Point expectedStep(const Track& track, int64_t stepNs) {
   const auto step = [&](int32_t speed) {
     return toInt(int64_t{speed} * (stepNs / 1000) / kSecondUs);
   };
-  return {step(track.speedX), step(track.speedY)};
+  const Point speed = track.stepSpeed.value_or(Point{track.speedX, track.speedY});
+  return {step(speed.x), step(speed.y)};
 }
 
 Point expectedShift(const Track& track, const CameraMotion& camera, int64_t stepNs) {

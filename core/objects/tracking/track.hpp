@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace rg::objects {
@@ -33,6 +34,7 @@ struct Track {
   ObjectState state = ObjectState::New;
   int32_t x = 0, foot = 0;
   int32_t speedX = 0, speedY = 0;  ///< Over the ground, in 1/16 px per second.
+  std::optional<Point> stepSpeed;  ///< The same of the step to this frame, where regions tell it.
   Extent size;
   Look look;
   Look recent;  ///< Since it came out of a crowd, while it is in doubt.
@@ -76,6 +78,8 @@ struct Track {
   bool isInDoubt = false;     ///< It may have taken another's place.
 
   [[nodiscard]] Box box() const;  ///< In pixels.
+  /// How far it goes in the picture until this frame, in 1/16 px, while the camera moves so.
+  void setStep(Point step, const CameraMotion& camera, int64_t stepNs);
   /// Where the portrait lies, in pixels, once the picture has moved by `camera` (1/16 px).
   [[nodiscard]] Point portraitCorner(Point camera = {}) const;
 };

@@ -32,6 +32,11 @@ void Tracker::predict(int64_t stepNs, const TrackerParams& params) {
   life_.settle(stepNs, params.maxLostNs, state_);
 }
 
+void Tracker::measure(const motion::Motion& motion, const CameraMotion& camera, int64_t stepNs,
+                      const GroupGrid& previous) {
+  measureSteps(motion, camera, stepNs, previous, state_.owner, stepScratch_, state_.tracks);
+}
+
 /// Tracks are where they are expected.
 void Tracker::begin(const GroupGrid& e, int64_t stepNs) {
   if (state_.frame != e.frame || state_.showsMovers != e.showsMovers) {
@@ -76,6 +81,7 @@ void Tracker::update(const GroupGrid& evidence, const MergeInput& input,
   companies_.find(stepNs, state_);
   companies_.tell(state_, life_.events());
   life_.settle(stepNs, params.maxLostNs, state_);
+  for (Track& track : state_.tracks) track.stepSpeed.reset();
 }
 
 }  // namespace rg::objects

@@ -18,6 +18,7 @@
 #include "core/objects/tracking/steps/returns.hpp"
 #include "core/objects/tracking/steps/track_fit.hpp"
 #include "core/objects/tracking/steps/track_life.hpp"
+#include "core/objects/tracking/track_steps.hpp"
 
 #include <cstdint>
 #include <utility>
@@ -42,6 +43,10 @@ class Tracker {
   void inherit(TrackerLegacy&& legacy) noexcept;
   /// A frame that shows nothing: tracks move on as they are expected to.
   void predict(int64_t stepNs, const TrackerParams& params);
+  /// What this frame's motion says of how far tracks went since `previous`, of which the cells'
+  /// owners are: the next update takes it for their speeds.
+  void measure(const motion::Motion& motion, const CameraMotion& camera, int64_t stepNs,
+               const GroupGrid& previous);
   void update(const GroupGrid& evidence, const MergeInput& input, const TrackerParams& params,
               const Executor& executor);
 
@@ -60,6 +65,7 @@ class Tracker {
   void begin(const GroupGrid& evidence, int64_t stepNs);
 
   TrackerState state_;
+  TrackStepScratch stepScratch_;
   TrackFit fit_;
   TrackPortraits portraits_;
   PartedTracks parted_;

@@ -127,8 +127,9 @@ void correct(size_t index, int64_t stepNs, TrackerState& state) {
   const auto share = [](Number gain, int64_t off) { return off * gain.num / (16 * gain.den); };
   track.x = toInt(track.x + share(gains.position, offX));
   track.foot = toInt(track.foot + share(gains.position, offFoot));
-  track.speedX = toInt(track.speedX + share(gains.speed, offX * kSecondUs) / sinceUs);
-  track.speedY = toInt(track.speedY + share(gains.speed, offFoot * kSecondUs) / sinceUs);
+  const Point speed = track.stepSpeed.value_or(Point{track.speedX, track.speedY});
+  track.speedX = toInt(speed.x + share(gains.speed, offX * kSecondUs) / sinceUs);
+  track.speedY = toInt(speed.y + share(gains.speed, offFoot * kSecondUs) / sinceUs);
   if (s.isWhole || s.share >= n.steadyShare * int64_t{256}) {
     const auto samples =
         static_cast<int32_t>(std::clamp<int64_t>(track.centreSamples, 1, n.steadySamples.whole()));
