@@ -18,7 +18,7 @@
 #include "core/objects/tracking/steps/returns.hpp"
 #include "core/objects/tracking/steps/track_fit.hpp"
 #include "core/objects/tracking/steps/track_life.hpp"
-#include "core/objects/tracking/track_steps.hpp"
+#include "core/objects/tracking/steps/track_steps.hpp"
 
 #include <cstdint>
 #include <utility>

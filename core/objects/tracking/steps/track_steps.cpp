@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "core/objects/tracking/track_steps.hpp"
+#include "core/objects/tracking/steps/track_steps.hpp"
 
 #include "core/objects/merge/motion_evidence.hpp"
 
