@@ -74,7 +74,7 @@ TEST(TrackSteps, NeedHalfOfWhatTheTrackWas) {
 }
 
 TEST(TrackSteps, AreTheMedianOfWhatTheRegionsSay) {
-  EXPECT_THAT(steps("444.12233444", "12333.......", {4, 4, 7, 0}), ElementsAre(Optional(4)));
+  EXPECT_THAT(steps("444.12233444", "11111.......", {4, 4, 7, 0}), ElementsAre(Optional(4)));
 }
 
 TEST(TrackSteps, OfWhatCameFromBeyondTheFrameSayNothing) {
